@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "planners/trees/rrt_connect.hpp"
-#include "scenes/arms/moveit_io.hpp"
+#include "scenes/arms/arm_files_io.hpp"
 #include "scenes/files/read_world_io.hpp"
 #include "solve/question/question_of_arm.hpp"
 #include "worlds/arms/arm_world.hpp"

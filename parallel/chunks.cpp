@@ -7,7 +7,6 @@
 
 #include <pthread.h>
 
-#include <algorithm>
 #include <atomic>
 #include <exception>
 #include <latch>
@@ -15,7 +14,6 @@
 #include <new>
 #include <system_error>
 #include <thread>
-#include <vector>
 
 #include "core/run/trace.hpp"
 

@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "core/base/items_by_key.hpp"
@@ -38,10 +39,7 @@ inline std::vector<std::uint32_t> places_of_buckets(std::vector<std::uint32_t>& 
   for (std::size_t bucket = 0; bucket < buckets; ++bucket) {
     begin[bucket] = place;
     for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
-      std::uint32_t& count = counts[chunk * buckets + bucket];
-      const std::uint32_t here = count;
-      count = place;
-      place += here;
+      place += std::exchange(counts[chunk * buckets + bucket], place);
     }
   }
   begin[buckets] = place;
@@ -75,8 +73,7 @@ inline void sort_bucket(const RawVector<std::uint64_t>& pairs, Range places, Ran
   auto place = static_cast<std::uint32_t>(places.first);
   for (std::size_t key = keys.first; key < keys.last; ++key) {
     order.first[key] = place;
-    place += scratch[key - keys.first];
-    scratch[key - keys.first] = order.first[key];
+    place += std::exchange(scratch[key - keys.first], place);
   }
   for (std::size_t i = places.first; i < places.last; ++i) {
     order.items[scratch[(pairs[i] >> 32) - keys.first]++] = static_cast<std::uint32_t>(pairs[i]);
@@ -143,22 +140,18 @@ template <class Vector>
 std::uint64_t exclusive_scan(Vector& values, const Execution& execution) {
   using Value = typename Vector::value_type;
   constexpr std::size_t grain = std::size_t{1} << 16;
-  std::vector<std::uint64_t> sums(chunk_count(values.size(), grain) + 1, 0);
-  for_chunks(values.size(), grain, execution, [&](Range r) {
+  std::vector<std::uint64_t> sums = parts_of_chunks(values.size(), grain, execution, [&](Range r) {
     std::uint64_t sum = 0;
     for (std::size_t i = r.first; i < r.last; ++i) sum += values[i];
-    sums[r.first / grain + 1] = sum;
+    return sum;
   });
-  for (std::size_t c = 1; c < sums.size(); ++c) sums[c] += sums[c - 1];
+  std::uint64_t total = 0;
+  for (std::uint64_t& sum : sums) total += std::exchange(sum, total);
   for_chunks(values.size(), grain, execution, [&](Range r) {
     std::uint64_t sum = sums[r.first / grain];
-    for (std::size_t i = r.first; i < r.last; ++i) {
-      const std::uint64_t value = values[i];
-      values[i] = static_cast<Value>(sum);
-      sum += value;
-    }
+    for (std::size_t i = r.first; i < r.last; ++i) sum += std::exchange(values[i], static_cast<Value>(sum));
   });
-  return sums.back();
+  return total;
 }
 
 }  // namespace warren

@@ -11,7 +11,7 @@
 
 #include "core/base/printable.hpp"
 #include "scenes/scene/scene.hpp"
-#include "solve/answer/stage_lines.hpp"
+#include "solve/answer/explanation_text.hpp"
 #include "solve/explain_answer.hpp"
 #include "solve/question/question_of_arm.hpp"
 #include "solve/question/solve_options.hpp"

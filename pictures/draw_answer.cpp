@@ -10,7 +10,6 @@
 #include <string_view>
 #include <utility>
 
-#include "core/base/error.hpp"
 #include "pictures/formats/write_picture.hpp"
 #include "pictures/layers/draw_arm.hpp"
 #include "pictures/layers/draw_bodies.hpp"
@@ -50,14 +49,6 @@ PictureLayer layer_of(NamedLines lines) {
   return layer;
 }
 
-DrawingPage page_of(const HeadingCells& heading, const std::vector<PictureLayer>& ground, const Execution& execution) {
-  PictureLayer cells = blocked_at_heading(heading, execution);
-  DrawingPage page{cells.id, ground};
-  page.layers.insert(page.layers.begin(), std::move(cells));
-  page.layers.push_back(arrows_among(heading, execution));
-  return page;
-}
-
 void take_lengths(Drawing& drawing) {
   const std::vector<double> straight(drawing.body.poses.size(), 0.0);
   drawing.body.lengths = leg_lengths(drawing.body.poses, drawing.path_turns.empty() ? straight : drawing.path_turns);
@@ -79,15 +70,6 @@ void add_bodies(Drawing& drawing, const RobotSpec& robot, const StateList& state
   if (drives) drawing.path_turns = leg_turns(poses);
   for (PictureLayer& layer : bodies_along(poses, robot)) drawing.layers.push_back(std::move(layer));
   take_lengths(drawing);
-}
-
-/// All states of a turning body's roadmap or trees.
-std::vector<Se2> states_of(const std::vector<PlannedRoadmap<Se2>>& roadmaps) {
-  std::vector<Se2> all;
-  for (const PlannedRoadmap<Se2>& roadmap : roadmaps) {
-    all.insert(all.end(), roadmap.states.begin(), roadmap.states.end());
-  }
-  return all;
 }
 
 /// Takes what is drawn of roadmaps and trees.
@@ -304,11 +286,17 @@ Drawing drawing_of(const Scene& scene, const Answer& answer, ByProducts made, co
                   .title = title_of(scene),
                   .subtitle = subtitle_of(scene, answer)};
   for (const HeadingCells& heading : made.headings) {
-    drawing.pages.push_back(page_of(heading, drawing.layers, execution));
+    PictureLayer cells = blocked_at_heading(heading, execution);
+    DrawingPage& page = drawing.pages.emplace_back(DrawingPage{cells.id, drawing.layers});
+    page.layers.insert(page.layers.begin(), std::move(cells));
+    page.layers.push_back(arrows_among(heading, execution));
   }
   if (heading_rad) {
-    add_heading(drawing, scene, problem.robot, problem.clearance, states_of(made.pose_roadmaps), *heading_rad,
-                execution);
+    std::vector<Se2> milestones;
+    for (const PlannedRoadmap<Se2>& some : made.pose_roadmaps) {
+      milestones.insert(milestones.end(), some.states.begin(), some.states.end());
+    }
+    add_heading(drawing, scene, problem.robot, problem.clearance, milestones, *heading_rad, execution);
   }
   for (NamedLines& lines : made.lines) drawing.layers.push_back(layer_of(std::move(lines)));
   add_roadmap(drawing, answer, made, execution);

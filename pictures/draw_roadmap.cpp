@@ -94,15 +94,12 @@ class RoadmapDrawing {
     for (VertexId v = 0; v < vertex_count(); ++v) all.push_back(position(v));
     return all;
   }
-  Se2 pose(VertexId v) const { return {position(v).x, position(v).y, arrays_.states[std::size_t{v} * 3 + 2]}; }
-  std::vector<Se2> poses() const {
-    std::vector<Se2> all;
-    for (VertexId v = 0; v < vertex_count(); ++v) all.push_back(pose(v));
+  RawVector<Se2> poses() const {
+    RawVector<Se2> all;
+    for (VertexId v = 0; v < vertex_count(); ++v) {
+      all.push_back({position(v).x, position(v).y, arrays_.states[std::size_t{v} * 3 + 2]});
+    }
     return all;
-  }
-  JointState joints(VertexId v) const {
-    return joint_state(
-        std::span<const double>(arrays_.states).subspan(std::size_t{v} * arrays_.dimension, arrays_.dimension));
   }
   void add_lines(Drawing& drawing) const {
     for (const EdgeStyle& style : edge_styles) {
@@ -121,7 +118,7 @@ class RoadmapDrawing {
 
   void add_curves(Drawing& drawing) const {
     std::array<PlannedRoadmap<Se2>, 1> roadmap;
-    for (VertexId v = 0; v < vertex_count(); ++v) roadmap[0].states.push_back(pose(v));
+    roadmap[0].states = poses();
     for (const EdgeStyle& style : edge_styles) {
       roadmap[0].graph = edges_in(style.state, arrays_, execution_);
       PictureLayer layer = car_curves(roadmap, roadmap_.robot, execution_).edges;
@@ -143,7 +140,10 @@ class RoadmapDrawing {
   }
   Drawing draw_arm() const {
     std::vector<JointState> states;
-    for (VertexId v = 0; v < vertex_count(); ++v) states.push_back(joints(v));
+    const std::size_t n = arrays_.dimension;
+    for (std::size_t v = 0; v < vertex_count(); ++v) {
+      states.push_back(joint_state(std::span<const double>(arrays_.states).subspan(v * n, n)));
+    }
     std::vector<ToolLines> lines;
     for (const EdgeStyle& style : edge_styles) {
       lines.push_back({style.id, style.label, style.color, style.state == EdgeState::free ? widths::edge : thin, {}});

@@ -362,10 +362,6 @@ std::string_view what_takes_less_memory(const Answer& answer) {
   return "mazes of algorithm=mst are forgotten tile by tile with --pipeline streamed --no-path";
 }
 
-void explain_stop(Answer& answer) {
-  answer.explained.emplace().hints = hints_for(Scene(), {.options = SolveOptions()}, answer);
-}
-
 void explain_in_time(Answer& answer, const std::function<void()>& explain) {
   const auto reason = stopped_by(explain);
   if (!reason) return;

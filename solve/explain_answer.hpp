@@ -38,10 +38,7 @@ void explain_answer(const Scene& scene, const AskedWith& asked, Answer& answer, 
 /// Where memory ended an answer: the way that holds less, as one line; empty where none is known.
 std::string_view what_takes_less_memory(const Answer& answer);
 
-/// The same of an answer that was stopped before its world was read.
-void explain_stop(Answer& answer);
-
-/// Lets `explain` do so; what stops it, a limit or memory, leaves the answer as it is, and the explanation says which.
+/// Lets `explain` fill it in; what stops it, a limit or memory, leaves the answer, and the explanation says which.
 void explain_in_time(Answer& answer, const std::function<void()>& explain);
 
 /// Where the body has least room along a verified path of this length and clearance; nothing where it touches, and of

@@ -65,7 +65,7 @@ void change_cells(Scene& scene, const Box& box, bool blocked, const Execution& e
   std::uint64_t seen = 0;
   for (std::uint32_t y = bound(near.min.y, map.height()); y < bound(std::ceil(near.max.y), map.height()); ++y) {
     for (std::uint32_t x = bound(near.min.x, map.width()); x < bound(std::ceil(near.max.x), map.width()); ++x) {
-      if (seen++ % 4096 == 0) execution.check();
+      execution.poll(seen++);
       if (box.contains(cell_centre(map, {x, y}))) change(map, {x, y}, blocked);
     }
   }

@@ -35,13 +35,11 @@ void change_cells(Scene& scene, std::span<const CellChange> cells);
 void change_cells(Scene& scene, const Box& box, bool blocked, const Execution& execution = {});
 
 /// Holds its world. One thread.
-class Replanner {
+class Replanner : NotCopied {
  public:
   /// limits: of each solve.
   Replanner(Scene scene, Question question, SolveOptions options = {}, Limits limits = {});
   ~Replanner();
-  Replanner(const Replanner&) = delete;
-  Replanner& operator=(const Replanner&) = delete;
 
   /// As change_cells().
   void update(std::span<const CellChange> cells) { change_cells(scene_, cells); }

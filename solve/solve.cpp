@@ -234,6 +234,12 @@ void check_alternatives(Verdict& verdict, const Scene& judged, const Question& a
   check_classes(verdict, *judged.map, answer, execution);
 }
 
+/// What is found of the lower bound.
+void take_bound(Verdict& verdict, const JudgedBound& judged) {
+  verdict.bound = judged.verdict;
+  if (judged.verdict == BoundVerdict::refuted) refute(verdict, "lower_bound: " + judged.what);
+}
+
 /// A bound of all paths on a map, with its proof.
 void check_certificate(Verdict& verdict, const Scene& scene, const RecordedAnswer& answer, const Execution& execution) {
   const Problem& problem = verdict.problem;
@@ -258,8 +264,7 @@ void check_certificate(Verdict& verdict, const Scene& scene, const RecordedAnswe
   const double cost = answer.price ? answer.cost.value_or(verdict.length) : verdict.length;
   constexpr double rounding = 1e-9;
   if (*answer.lower_bound > cost * (1.0 + rounding)) judged = {BoundVerdict::refuted, "above the path's cost"};
-  verdict.bound = judged.verdict;
-  if (judged.verdict == BoundVerdict::refuted) refute(verdict, "lower_bound: " + judged.what);
+  take_bound(verdict, judged);
 }
 
 /// All goals that an answer was asked for: the one that a tolerance or region was about, or that is reached, first.
@@ -385,10 +390,7 @@ void check_bound(Verdict& verdict, const Scene& scene, const RecordedAnswer& ans
   if (answer.price && *answer.lower_bound > cost * (1.0 + rounding)) {
     judged = {BoundVerdict::refuted, "above the path's cost"};
   }
-  if (judged.verdict == BoundVerdict::refuted) {
-    verdict.bound = judged.verdict;
-    return refute(verdict, "lower_bound: " + judged.what);
-  }
+  if (judged.verdict == BoundVerdict::refuted) return take_bound(verdict, judged);
   if (std::string wrong = wrong_gap(answer, cost); !wrong.empty()) return refute(verdict, std::move(wrong));
   const GoalRule& rule = answer.problem.rule;
   const auto& told = answer.goal_reached;
@@ -405,17 +407,14 @@ void check_bound(Verdict& verdict, const Scene& scene, const RecordedAnswer& ans
     if (is_plane) verdict.bound = bound_near(problem, answer, off);
     if (answer.price || is_turned || !is_plane) return;
     judged = judged_to(problem.goal);  // a free way to an end that does is one
-    if (judged.verdict != BoundVerdict::refuted) return;
-    verdict.bound = judged.verdict;
-    return refute(verdict, "lower_bound: " + judged.what);
+    if (judged.verdict == BoundVerdict::refuted) take_bound(verdict, judged);
+    return;
   }
-  judged = judged_to(problem.goal);
-  verdict.bound = judged.verdict;
+  take_bound(verdict, judged_to(problem.goal));
   for (const std::vector<double>& other : others) {  // a nearer one may be blocked, which nobody judges
     if (verdict.bound != BoundVerdict::checked) break;
     if (judged_to(other).verdict != BoundVerdict::checked) verdict.bound = BoundVerdict::unchecked;
   }
-  if (judged.verdict == BoundVerdict::refuted) refute(verdict, "lower_bound: " + judged.what);
 }
 
 /// What shapes the roadmap.

@@ -15,22 +15,11 @@
 
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
-#include "tools/screen/terminal.hpp"
 #include "tools/words/command.hpp"
 #include "tools/words/help.hpp"
 
 namespace warren::tools {
 namespace {
-
-int run_command(const Command& command, std::span<const std::string> words) {
-  const Arguments arguments(command, words);
-  if (arguments.wants_help()) {
-    print_text(command_help(command, terminal_width(), arguments.wants_all_help()));
-    return exit_code::success;
-  }
-  check_outputs(arguments);
-  return command.run(arguments);
-}
 
 int dispatch(std::span<const std::string> words) {
   if (words.empty()) {
@@ -49,7 +38,14 @@ int dispatch(std::span<const std::string> words) {
     print_text(completion_lines(words.subspan(1)));
     return exit_code::success;
   }
-  return run_command(command_named(words[0]), words.subspan(1));
+  const Command& command = command_named(words[0]);
+  const Arguments arguments(command, words.subspan(1));
+  if (arguments.wants_help()) {
+    print_text(command_help(command, terminal_width(), arguments.wants_all_help()));
+    return exit_code::success;
+  }
+  check_outputs(arguments);
+  return command.run(arguments);
 }
 
 std::string usage_hint(std::span<const std::string> words) {

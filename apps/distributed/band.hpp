@@ -63,6 +63,7 @@ class Band {
   /// What was read of a file; nullptr where nothing was.
   const StreamedWalls* read() const { return read_.get(); }
 
+  TileRows rows() const { return own_; }
   bool is_empty() const { return own_.first == own_.last; }
   Range tiles() const { return {own_.first * grid_.tile_cols, own_.last * grid_.tile_cols}; }
   const TileGrid& grid() const { return grid_; }

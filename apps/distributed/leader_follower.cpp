@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <csignal>
+#include <iterator>
 #include <span>
 #include <string>
 #include <utility>
@@ -43,35 +45,33 @@ struct KnownWalls {
   bool operator==(const KnownWalls&) const = default;
 };
 
+constexpr std::uint64_t TileSummary::*tile_counts[] = {&TileSummary::milestones, &TileSummary::candidate_edges,
+                                                       &TileSummary::free_edges, &TileSummary::closed_components};
+
 /// A band's tiles, reduced, in sum.
 struct ReducedBand {
   std::uint64_t bytes = 0;  ///< of their summaries
   std::uint64_t keys = 0;
-  std::uint64_t milestones = 0, candidate_edges = 0, free_edges = 0, closed_components = 0;
+  std::array<std::uint64_t, std::size(tile_counts)> counts = {};
 
   static ReducedBand of(std::span<const TileSummary> tiles) {
     ReducedBand sum;
     for (const TileSummary& tile : tiles) {
-      sum.add({tile.bytes(), tile.keys.size(), tile.milestones, tile.candidate_edges, tile.free_edges,
-               tile.closed_components});
+      sum.bytes += tile.bytes();
+      sum.keys += tile.keys.size();
+      for (std::size_t i = 0; i < sum.counts.size(); ++i) sum.counts[i] += tile.*tile_counts[i];
     }
     return sum;
   }
   void add(const ReducedBand& other) {
     bytes += other.bytes;
     keys += other.keys;
-    milestones += other.milestones;
-    candidate_edges += other.candidate_edges;
-    free_edges += other.free_edges;
-    closed_components += other.closed_components;
+    for (std::size_t i = 0; i < counts.size(); ++i) counts[i] += other.counts[i];
   }
   /// As a tile that has nothing else.
-  TileSummary counts() const {
+  TileSummary as_tile() const {
     TileSummary tile;
-    tile.milestones = milestones;
-    tile.candidate_edges = candidate_edges;
-    tile.free_edges = free_edges;
-    tile.closed_components = closed_components;
+    for (std::size_t i = 0; i < counts.size(); ++i) tile.*tile_counts[i] = counts[i];
     return tile;
   }
 };
@@ -147,21 +147,20 @@ class Follower {
       });
     }
     ValuePacker packer;
+    const auto instead = [&](Reply reply) -> ValuePacker& {
+      packer = ValuePacker();
+      packer.add(reply);
+      return packer;
+    };
     try {
       const auto stopped = stopped_by([&] {
         packer.add(Reply::done);
         work(request, from, packer);
       });
-      return stopped ? said(Reply::stopped, [&](ValuePacker& to) { to.add(*stopped); }) : packer.take();
+      if (stopped) instead(Reply::stopped).add(*stopped);
     } catch (const Error& error) {
-      return said(Reply::refused, [&](ValuePacker& to) { to.add_text(error.what()); });
+      instead(Reply::refused).add_text(error.what());
     }
-  }
-  template <class Say>
-  static Bytes said(Reply reply, const Say& say) {
-    ValuePacker packer;
-    packer.add(reply);
-    say(packer);
     return packer.take();
   }
 
@@ -219,11 +218,7 @@ class Follower {
     let_go(tiles_);
   }
   void rounds(ValueUnpacker& from, ValuePacker& to) {
-    if (!rounds_) {
-      const TileGrid& grid = band_.grid();
-      rounds_ = band_rounds(grid, band_rows(grid.tile_rows, transport_.rank(), transport_.ranks()), ends_,
-                            std::move(tiles_), execution_);
-    }
+    if (!rounds_) rounds_ = band_rounds(band_.grid(), band_.rows(), ends_, std::move(tiles_), execution_);
     rounds_->serve(from, to);
   }
   void read(ValueUnpacker& from, ValuePacker& to) const {
@@ -287,10 +282,9 @@ class RemoteCells : public CellWallSource {
       const Bytes bytes = requests_.answer(rank);
       ValueUnpacker from(bytes, fmt::format("rank {}", rank));
       CellTile tile;
-      tile.first_col = from.take<std::uint32_t>();
-      tile.first_row = from.take<std::uint32_t>();
-      tile.width = from.take<std::uint32_t>();
-      tile.height = from.take<std::uint32_t>();
+      for (auto* value : {&tile.first_col, &tile.first_row, &tile.width, &tile.height}) {
+        *value = from.take<std::uint32_t>();
+      }
       tile.walls = from.take_list<std::uint8_t>();
       if (tile.walls.size() != (std::size_t{tile.width} + 1) * (std::size_t{tile.height} + 1)) from.refuse();
       return tile;
@@ -315,20 +309,18 @@ class LeaderOfRanks : public Leader, private OtherTiles, private JudgesElsewhere
 
   std::unique_ptr<StreamedWalls> make(const Execution& execution) override {
     requests_.wait_as(execution);
-    requests_.ask(Request::make, {});
+    requests_.ask_each(Request::make, [](unsigned, ValuePacker&) {});
     std::vector<maze::RimPart> rims;
     if (auto own = band_.make(execution)) rims.push_back(std::move(*own));
     if (band_.read() != nullptr) known_ = KnownWalls::of(*band_.read());
-    const std::vector<Bytes> others = requests_.answers();
-    for (unsigned rank = 1; rank < requests_.ranks(); ++rank) {
-      ValueUnpacker from(others[rank], fmt::format("rank {}", rank));
-      if (from.is_done()) continue;
+    requests_.take_each([&](unsigned rank, ValueUnpacker from) {
+      if (from.is_done()) return;
       if (task_.unmade.packed) {
         learn(KnownWalls::unpack(from), rank);
       } else {
         rims.push_back(maze::RimPart::unpack(from));
       }
-    }
+    });
     if (!task_.unmade.packed) join_trees(std::move(rims), execution);
     return std::make_unique<Walls>(*this);
   }
@@ -380,34 +372,29 @@ class LeaderOfRanks : public Leader, private OtherTiles, private JudgesElsewhere
     }
     execution.reserve(edges * 64 + on_sides * 2 * sizeof(std::uint32_t));
     const maze::JoinedParts joined = join_parts(task_.unmade.formula->seed, rims, 1, band_.grid().side_log2, execution);
-    for (unsigned rank = 0; rank < requests_.ranks(); ++rank) {
-      const TileRows rows = band_rows(tile_rows(), rank, requests_.ranks());
-      const std::vector<std::uint64_t> near = edges_near(joined.turned, rows, band_.grid().side_log2);
-      if (rank == 0 && !band_.is_empty()) band_.turn(near);
-      if (rank == 0) continue;
-      ValuePacker packer;
-      packer.add_list(near);
-      requests_.ask_one(rank, Request::turn, packer.bytes());
-    }
-    requests_.answers();
+    const auto near = [&](unsigned rank) {
+      return edges_near(joined.turned, band_rows(tile_rows(), rank, requests_.ranks()), band_.grid().side_log2);
+    };
+    if (!band_.is_empty()) band_.turn(near(0));
+    requests_.ask_each(Request::turn, [&](unsigned rank, ValuePacker& to) { to.add_list(near(rank)); });
+    requests_.take_each([](unsigned, const ValueUnpacker&) {});
   }
   /// Each reduces its tiles, and keeps them. own: those of this rank.
   Reduced reduce_bands(const OverlayEnds& ends, BandPeeling peeling, const Execution& execution) {
-    ValuePacker packer;
-    packer.add_list(ends.start.links);
-    packer.add_list(ends.goal.links);
-    packer.add(peeling);
-    requests_.ask(Request::reduce, packer.bytes());
+    requests_.ask_each(Request::reduce, [&](unsigned, ValuePacker& to) {
+      to.add_list(ends.start.links);
+      to.add_list(ends.goal.links);
+      to.add(peeling);
+    });
     Reduced reduced{band_.reduce(ends, peeling, execution), {}, 0};
     reduced.all = ReducedBand::of(reduced.own);
     std::size_t largest = 0;
-    const std::vector<Bytes> others = requests_.answers();
-    for (unsigned rank = 1; rank < requests_.ranks(); ++rank) {
-      const auto band = ValueUnpacker(others[rank], fmt::format("rank {}", rank)).take<ReducedBand>();
+    requests_.take_each([&](unsigned, ValueUnpacker from) {
+      const auto band = from.take<ReducedBand>();
       largest = std::max<std::size_t>(largest, band.bytes);
       reduced.bytes_to_come += band.bytes;
       reduced.all.add(band);
-    }
+    });
     reduced.bytes_to_come += 2 * largest;
     return reduced;
   }
@@ -416,21 +403,19 @@ class LeaderOfRanks : public Leader, private OtherTiles, private JudgesElsewhere
     Reduced reduced = reduce_bands(ends, BandPeeling::band, execution);
     const auto reserve = [&] { execution.reserve(reduced.bytes_to_come + reduced.all.keys * bytes_of_key); };
     if (reduced.all.keys <= most_keys_ && memory_holds(reserve)) return hand_over(std::move(reduced.own), execution);
-    ends_ = ends;
     if (!reduced.own.empty()) {
-      rounds_ = band_rounds(band_.grid(), band_rows(tile_rows(), 0, requests_.ranks()), ends_, std::move(reduced.own),
-                            execution);
+      rounds_ = band_rounds(band_.grid(), band_.rows(), ends, std::move(reduced.own), execution);
     }
     searches_ = true;
-    return {reduced.all.counts()};
+    return {reduced.all.as_tile()};
   }
   std::vector<TileSummary> reduce_whole(const OverlayEnds& ends, const Execution& execution) override {
     Reduced reduced = reduce_bands(ends, BandPeeling::none, execution);
     execution.reserve(reduced.bytes_to_come);
     return hand_over(std::move(reduced.own), execution);
   }
-  std::vector<TileSummary> hand_over(std::vector<TileSummary> own, const Execution& execution) {
-    std::vector<TileSummary> tiles = std::move(own);
+  /// tiles: those of this rank.
+  std::vector<TileSummary> hand_over(std::vector<TileSummary> tiles, const Execution& execution) {
     tiles.reserve(band_.grid().count());
     for (unsigned rank = 1; rank < requests_.ranks(); ++rank) {
       execution.check();
@@ -454,43 +439,34 @@ class LeaderOfRanks : public Leader, private OtherTiles, private JudgesElsewhere
     for (std::size_t i = 0; i < chains.size(); ++i) {
       of_rank[rank_of_row(chains[i].tile / band_.grid().tile_cols, tile_rows(), requests_.ranks())].push_back(i);
     }
-    for (unsigned rank = 1; rank < requests_.ranks(); ++rank) {
+    requests_.ask_each(Request::steps, [&](unsigned rank, ValuePacker& to) {
       std::vector<TileChain> own;
       for (const std::size_t i : of_rank[rank]) own.push_back(chains[i]);
-      ValuePacker packer;
-      packer.add_list(own);
-      requests_.ask_one(rank, Request::steps, packer.bytes());
-    }
+      to.add_list(own);
+    });
     std::vector<std::vector<std::uint8_t>> steps = band_.steps_of(chains, execution);
-    const std::vector<Bytes> others = requests_.answers();
-    for (unsigned rank = 1; rank < requests_.ranks(); ++rank) {
-      ValueUnpacker from(others[rank], fmt::format("rank {}", rank));
+    requests_.take_each([&](unsigned rank, ValueUnpacker from) {
       for (const std::size_t i : of_rank[rank]) {
         steps[i] = from.take_list<std::uint8_t>();
         if (steps[i].size() != chains[i].length) from.refuse();
       }
-    }
+    });
     return steps;
   }
   Range own_tiles() const override { return band_.tiles(); }
   void begin(std::span<const Vec2> path, double reach) override {
-    for (unsigned rank = 1; rank < requests_.ranks(); ++rank) {
-      ValuePacker packer;
-      packer.add(reach);
+    requests_.ask_each(Request::judge, [&](unsigned rank, ValuePacker& to) {
+      to.add(reach);
       for (const NearLegs& run :
            legs_near(path, band_rows(tile_rows(), rank, requests_.ranks()), band_.grid(), reach)) {
-        packer.add(run.first);
-        packer.add_list(run.points);
+        to.add(run.first);
+        to.add_list(run.points);
       }
-      requests_.ask_one(rank, Request::judge, packer.bytes());
-    }
+    });
   }
   std::vector<NearestWalls> take() override {
     std::vector<NearestWalls> found;
-    const std::vector<Bytes> others = requests_.answers();
-    for (unsigned rank = 1; rank < requests_.ranks(); ++rank) {
-      found.push_back(ValueUnpacker(others[rank], fmt::format("rank {}", rank)).take<NearestWalls>());
-    }
+    requests_.take_each([&](unsigned, ValueUnpacker from) { found.push_back(from.take<NearestWalls>()); });
     return found;
   }
   std::size_t tile_rows() const { return band_.grid().tile_rows; }
@@ -503,7 +479,6 @@ class LeaderOfRanks : public Leader, private OtherTiles, private JudgesElsewhere
   const RemoteCells planned_;
   const RemoteCells judged_;
   KnownWalls known_;  // of a file
-  OverlayEnds ends_;  // where the others search, too
   std::unique_ptr<BandRounds> rounds_;
   bool searches_ = false;  // all ranks do
   std::optional<SearchLack> lack_;

@@ -20,7 +20,6 @@
 #include "solve/kept/checksum.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
-#include "tools/screen/terminal.hpp"
 #include "tools/words/help.hpp"
 
 namespace warren::distributed {
@@ -54,14 +53,12 @@ std::string usage_of(std::span<const tools::Command> commands) {
 
 int dispatch(std::vector<std::string> words, MpiTransport& transport) {
   const tools::Command commands[] = {shared_solve_command(transport), shared_scale_command(transport)};
-  if (words.empty() || words[0] == "--help" || words[0] == "-h") {
-    if (transport.rank() == 0) tools::print_text(usage_of(commands));
+  const auto told = [&](std::string_view text) {
+    if (transport.rank() == 0) tools::print_text(text);
     return tools::exit_code::success;
-  }
-  if (words[0] == "--version") {
-    if (transport.rank() == 0) tools::print_text(tools::version_text(tools::build_commit()));
-    return tools::exit_code::success;
-  }
+  };
+  if (words.empty() || words[0] == "--help" || words[0] == "-h") return told(usage_of(commands));
+  if (words[0] == "--version") return told(tools::version_text(tools::build_commit()));
   const auto command = std::find_if(std::begin(commands), std::end(commands),
                                     [&](const tools::Command& known) { return known.name == words[0]; });
   if (command == std::end(commands)) throw UsageError("unknown command " + words[0]);
@@ -69,9 +66,7 @@ int dispatch(std::vector<std::string> words, MpiTransport& transport) {
   add_limits(words, transport.ranks_here());
   const tools::Arguments arguments(*command, words);
   if (arguments.wants_help()) {
-    if (transport.rank() == 0)
-      tools::print_text(tools::command_help(*command, tools::terminal_width(), arguments.wants_all_help()));
-    return tools::exit_code::success;
+    return told(tools::command_help(*command, tools::terminal_width(), arguments.wants_all_help()));
   }
   if (transport.rank() == 0) tools::check_outputs(arguments);
   return command->run(arguments);

@@ -28,19 +28,13 @@ MpiTransport::MpiTransport(int* argc, char*** argv) {
   int provided = 0;
   MPI_Init_thread(argc, argv, MPI_THREAD_SERIALIZED, &provided);
   if (provided < MPI_THREAD_SERIALIZED) throw std::runtime_error("this MPI takes calls from one thread alone");
-  int rank = 0;
-  int ranks = 1;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-  int here = 1;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks_);
   MPI_Comm machine = MPI_COMM_NULL;
-  MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, rank, MPI_INFO_NULL, &machine);
-  MPI_Comm_size(machine, &here);
+  MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &machine);
+  MPI_Comm_size(machine, &ranks_here_);
   MPI_Comm_free(&machine);
-  rank_ = static_cast<unsigned>(rank);
-  ranks_ = static_cast<unsigned>(ranks);
-  ranks_here_ = static_cast<unsigned>(here);
-  unread_.resize(ranks_);
+  unread_.resize(static_cast<std::size_t>(ranks_));
 }
 
 MpiTransport::~MpiTransport() { MPI_Finalize(); }

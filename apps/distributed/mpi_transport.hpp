@@ -21,9 +21,9 @@ class MpiTransport : public Transport {
   /// Ends all ranks at once; does not return.
   [[noreturn]] void end_all(int code);
 
-  unsigned rank() const override { return rank_; }
-  unsigned ranks() const override { return ranks_; }
-  unsigned ranks_here() const { return ranks_here_; }  ///< on this machine
+  unsigned rank() const override { return static_cast<unsigned>(rank_); }
+  unsigned ranks() const override { return static_cast<unsigned>(ranks_); }
+  unsigned ranks_here() const { return static_cast<unsigned>(ranks_here_); }  ///< on this machine
   void send(unsigned to, std::span<const std::byte> bytes, const Execution& execution) override;
   Bytes receive(unsigned from, const Execution& execution) override;
   bool has_message(unsigned from) override;
@@ -33,9 +33,9 @@ class MpiTransport : public Transport {
   void receive_piece(unsigned from, std::span<std::byte> bytes, const Execution& execution);
   void skip_rest(unsigned from, const Execution& execution);
 
-  unsigned rank_ = 0;
-  unsigned ranks_ = 1;
-  unsigned ranks_here_ = 1;
+  int rank_ = 0;  // as MPI counts
+  int ranks_ = 1;
+  int ranks_here_ = 1;
   std::list<Bytes> left_;              // pieces whose sending a stop has cut short: MPI still has them
   std::vector<std::uint64_t> unread_;  // by rank: bytes of a message whose receiving a stop has cut short
 };

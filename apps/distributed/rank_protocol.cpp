@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -21,10 +20,6 @@ void Requests::ask_one(unsigned rank, Request request, std::span<const std::byte
   asked_ = request;
   traffic_[static_cast<std::size_t>(request)] += message.size();
   transport_.send(rank, message, execution_);
-}
-
-void Requests::ask(Request request, std::span<const std::byte> body) {
-  for (unsigned rank = 1; rank < ranks(); ++rank) ask_one(rank, request, body);
 }
 
 Bytes Requests::answer(unsigned rank) {
@@ -62,12 +57,6 @@ std::vector<Bytes> Requests::answers(std::vector<unsigned> awaited) {
     }
   }
   return found;
-}
-
-std::vector<Bytes> Requests::answers() {
-  std::vector<unsigned> all(ranks() - 1);
-  std::iota(all.begin(), all.end(), 1U);
-  return answers(std::move(all));
 }
 
 namespace {

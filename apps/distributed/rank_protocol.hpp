@@ -8,7 +8,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <new>
+#include <numeric>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -37,14 +39,28 @@ class Requests {
   unsigned ranks() const { return transport_.ranks(); }
   /// Whoever waits from now on waits so.
   void wait_as(const Execution& execution) { execution_ = execution; }
-  void ask(Request request, std::span<const std::byte> body);
   void ask_one(unsigned rank, Request request, std::span<const std::byte> body);
+  /// Asks each of the others; say(rank, body) adds what it needs.
+  template <class Say>
+  void ask_each(Request request, const Say& say) {
+    for (unsigned rank = 1; rank < ranks(); ++rank) {
+      ValuePacker body;
+      say(rank, body);
+      ask_one(rank, request, body.bytes());
+    }
+  }
   /// The answer of one. Throws Stopped, InputError.
   Bytes answer(unsigned rank);
   /// The answers of these ranks, by rank; of the others nothing. Throws Stopped, InputError.
   std::vector<Bytes> answers(std::vector<unsigned> awaited);
-  /// Of all but rank 0.
-  std::vector<Bytes> answers();
+  /// take(rank, answer) takes what each of the others says, when all have answered. Throws as answers().
+  template <class Take>
+  void take_each(const Take& take) {
+    std::vector<unsigned> all(ranks() - 1);
+    std::iota(all.begin(), all.end(), 1U);
+    const std::vector<Bytes> found = answers(all);
+    for (const unsigned rank : all) take(rank, ValueUnpacker(found[rank], "rank " + std::to_string(rank)));
+  }
 
   /// Bytes that this rank has sent and received for each kind of request: all that went over the wire.
   const std::array<std::uint64_t, request_count>& traffic() const { return traffic_; }
@@ -67,14 +83,12 @@ bool agree(Transport& transport, std::string_view facts, const Execution& execut
            std::string_view difference = "is another program or was given other words than rank 0");
 
 /// Lives at rank 0 while the others follow().
-class EndOfFollowers {
+class EndOfFollowers : NotCopied {
  public:
   explicit EndOfFollowers(Transport& transport) : transport_(transport) {}
   /// Tells the others, whatever they are doing, and hears them out: what they were sending, too, and that they have
   /// ended. Waits for some seconds at most.
   ~EndOfFollowers();
-  EndOfFollowers(const EndOfFollowers&) = delete;
-  EndOfFollowers& operator=(const EndOfFollowers&) = delete;
 
  private:
   Transport& transport_;

@@ -22,11 +22,11 @@
 #include "core/base/enum_names.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "scenes/text/human_units.hpp"
+#include "solve/paths/path_file_io.hpp"
 #include "solve/streamed/solve_streamed.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"
-#include "tools/screen/terminal.hpp"
 #include "tools/words/option_values.hpp"
 #include "tools/words/planner_words.hpp"
 #include "tools/words/question_words.hpp"
@@ -151,12 +151,6 @@ class UsedMeter {
   const studies::RunCounts before_ = process_.read();
 };
 
-class NobodysPath : public PathTaker {
- public:
-  void begin(std::uint64_t) override {}
-  void add(std::span<const Vec2>) override {}
-};
-
 struct Mazes {
   explicit Mazes(const tools::Arguments& arguments)
       : side(tools::given_count(arguments, "--side", 1, 1'000'000).value_or(4000)),
@@ -192,11 +186,11 @@ RanksRun measured(Transport& transport, const Mazes& mazes, bool is_strong, cons
     const EndOfFollowers end(first);
     told([&] {
       const auto leader = leader_of(first, mazes.task(next), execution);
-      NobodysPath nobody;
+      PathArrayFile nobodys("", execution);
       SolveOptions options;
       options.roadmap.pipeline = PipelineKind::streamed;
       const Answer answer =
-          solve_streamed_within(mazes.scene(next), {}, options, execution, {.taker = &nobody, .team = leader.get()});
+          solve_streamed_within(mazes.scene(next), {}, options, execution, {.taker = &nobodys, .team = leader.get()});
       if (answer.stop_reason) throw Stopped(*answer.stop_reason);
       found.length = answer.length;
       found.traffic = leader->traffic();
@@ -239,28 +233,23 @@ int lead(const tools::Arguments& arguments, Transport& transport) {
   return tools::exit_code::success;
 }
 
-void follow_until_end(Transport& transport, const Mazes& mazes, const FollowerLimits& limits) {
-  const Deadline waiting(std::numeric_limits<double>::infinity(), limits.memory_bytes, limits.signal);
-  for (;;) {
-    const Bytes bytes = transport.receive(0, {.deadline = &waiting});
-    if (bytes.size() != sizeof(NextRun)) return;  // the end
-    const auto next = ValueUnpacker(bytes, "rank 0").take<NextRun>();
-    if (transport.rank() >= next.ranks) continue;
-    const UsedMeter meter(transport);
-    FirstRanks first(transport, next.ranks);
-    follow(first, mazes.task(next), limits);
-    const RankUse used = meter.used();
-    transport.send(0, std::as_bytes(std::span(&used, 1)), {.deadline = &waiting});
-  }
-}
-
 int follow_runs(const tools::Arguments& arguments, Transport& transport) {
   const Mazes mazes(arguments);
   ranks_asked(arguments, transport.ranks());
-  Progress progress;
-  const FollowerLimits limits = follower_limits(arguments, progress);
-  telling_where_stopped(transport, progress, [&] { follow_until_end(transport, mazes, limits); });
-  return tools::exit_code::success;
+  return follow_as(arguments, transport, [&](const FollowerLimits& limits) {
+    const Deadline waiting(std::numeric_limits<double>::infinity(), limits.memory_bytes, limits.signal);
+    for (;;) {
+      const Bytes bytes = transport.receive(0, {.deadline = &waiting});
+      if (bytes.size() != sizeof(NextRun)) return;  // the end
+      const auto next = ValueUnpacker(bytes, "rank 0").take<NextRun>();
+      if (transport.rank() >= next.ranks) continue;
+      const UsedMeter meter(transport);
+      FirstRanks first(transport, next.ranks);
+      follow(first, mazes.task(next), limits);
+      const RankUse used = meter.used();
+      transport.send(0, std::as_bytes(std::span(&used, 1)), {.deadline = &waiting});
+    }
+  });
 }
 
 }  // namespace

@@ -528,17 +528,14 @@ class SharedSearch {
         if (!is_done[side]) bucket[side] = own.least;
       }
       if (is_done[0] && is_done[1]) return;
-      settle_buckets(bucket);
+      const std::vector<Bytes> answers = all(RoundStep::settle, [&](std::size_t band, ValuePacker& to) {
+        on_way_[band].pack(to);
+        for (const double steps : bucket) to.add(steps);
+      });
+      std::vector<ToldLabels> told;
+      take_states(answers, [&](ValueUnpacker& from) { told.push_back(ToldLabels::unpack(from)); });
+      tell(told);
     }
-  }
-  void settle_buckets(std::array<double, side_count> bucket) {
-    const std::vector<Bytes> answers = all(RoundStep::settle, [&](std::size_t band, ValuePacker& to) {
-      on_way_[band].pack(to);
-      for (const double steps : bucket) to.add(steps);
-    });
-    std::vector<ToldLabels> told;
-    take_states(answers, [&](ValueUnpacker& from) { told.push_back(ToldLabels::unpack(from)); });
-    tell(told);
   }
   void exchange() {
     const std::vector<Bytes> answers =

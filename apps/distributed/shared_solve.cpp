@@ -88,22 +88,21 @@ class SharedSolve : public tools::AnswerCommand {
  private:
   Answer find(const tools::Run& run, StageTimes& before, ByProducts*) override {
     const Execution& execution = run.execution();
-    return telling_where_stopped(transport_, *execution.progress, [&] { return found(execution, before); });
-  }
-  Answer found(const Execution& execution, StageTimes& before) {
-    asked_.open(transport_, execution, before.read);
-    check_outputs_of(robot_of(asked_.scene(), asked_.question));
-    const EndOfFollowers end(transport_);
-    const std::unique_ptr<Leader> leader = leader_of(transport_, asked_.task(), execution);
-    Answer answer = solve_streamed_within(asked_.scene(), asked_.question, asked_.options, execution,
-                                          {.taker = path_taker(), .team = leader.get()});
-    answer.figures.push_back({"ranks", std::uint64_t{transport_.ranks()}});
-    if (answer.stop_reason) say_where_stopped(transport_, *execution.progress, *answer.stop_reason);
-    if (const auto lack = leader->lack()) {
-      tools::say_on_standard_error(fmt::format("warren-mpi: rank {} would need {} more for its share of the search\n",
-                                               lack->rank, human_bytes(static_cast<double>(lack->bytes))));
-    }
-    return answer;
+    return telling_where_stopped(transport_, *execution.progress, [&] {
+      asked_.open(transport_, execution, before.read);
+      check_outputs_of(robot_of(asked_.scene(), asked_.question));
+      const EndOfFollowers end(transport_);
+      const std::unique_ptr<Leader> leader = leader_of(transport_, asked_.task(), execution);
+      Answer answer = solve_streamed_within(asked_.scene(), asked_.question, asked_.options, execution,
+                                            {.taker = path_taker(), .team = leader.get()});
+      answer.figures.push_back({"ranks", std::uint64_t{transport_.ranks()}});
+      if (answer.stop_reason) say_where_stopped(transport_, *execution.progress, *answer.stop_reason);
+      if (const auto lack = leader->lack()) {
+        tools::say_on_standard_error(fmt::format("warren-mpi: rank {} would need {} more for its share of the search\n",
+                                                 lack->rank, human_bytes(static_cast<double>(lack->bytes))));
+      }
+      return answer;
+    });
   }
   Scene scene_drawn(const Execution& execution, ByProducts&) override {
     return read_world(arguments_.operand(0), execution);
@@ -116,16 +115,13 @@ class SharedSolve : public tools::AnswerCommand {
 /// Says nothing of words that rank 0 refuses, too.
 int follow_words(const tools::Arguments& arguments, Transport& transport) {
   SharedQuestion asked(arguments);
-  Progress progress;
-  const FollowerLimits limits = follower_limits(arguments, progress);
-  const Deadline looking(std::numeric_limits<double>::infinity(), available_bytes(), &tools::signal_flag());
-  telling_where_stopped(transport, progress, [&] {
+  return follow_as(arguments, transport, [&](const FollowerLimits& limits) {
+    const Deadline looking(std::numeric_limits<double>::infinity(), available_bytes(), limits.signal);
     double seconds = 0.0;
-    if (asked.open(transport, {.deadline = &looking, .progress = &progress}, seconds)) {
+    if (asked.open(transport, {.deadline = &looking, .progress = limits.progress}, seconds)) {
       follow(transport, asked.task(), limits);
     }
   });
-  return tools::exit_code::success;
 }
 
 [[noreturn]] void refuse() {
@@ -155,13 +151,17 @@ tools::Command shared_solve_command(Transport& transport) {
           }};
 }
 
-FollowerLimits follower_limits(const tools::Arguments& arguments, Progress& progress) {
+int follow_as(const tools::Arguments& arguments, Transport& transport,
+              const std::function<void(const FollowerLimits&)>& work) {
   const auto memory = tools::given_value(arguments, "--memory", tools::memory_value);
   const auto threads = tools::given_value(arguments, "--threads", tools::threads_value);
-  return {.threads = threads.value_or(0),
-          .memory_bytes = memory ? *memory : available_bytes(),
-          .signal = &tools::signal_flag(),
-          .progress = &progress};
+  Progress progress;
+  const FollowerLimits limits{.threads = threads.value_or(0),
+                              .memory_bytes = memory ? *memory : available_bytes(),
+                              .signal = &tools::signal_flag(),
+                              .progress = &progress};
+  telling_where_stopped(transport, progress, [&] { work(limits); });
+  return tools::exit_code::success;
 }
 
 SharedWorld shared_world(const std::string& source, const Execution& execution) {

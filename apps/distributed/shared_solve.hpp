@@ -4,6 +4,7 @@
 // memory take of it.
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "apps/distributed/leader_follower.hpp"
@@ -18,8 +19,9 @@ namespace warren::distributed {
 tools::Command shared_solve_command(Transport& transport);
 tools::Command shared_scale_command(Transport& transport);
 
-/// As --threads and --memory say; it refers to `progress`.
-FollowerLimits follower_limits(const tools::Arguments& arguments, Progress& progress);
+/// Calls work(limits), which are as --threads and --memory say; telling_where_stopped(). The exit code.
+int follow_as(const tools::Arguments& arguments, Transport& transport,
+              const std::function<void(const FollowerLimits&)>& work);
 
 /// The world that ranks share: a maze whose tiles any of them can make, or a file of which each reads its part. Files
 /// of different hosts may have one name and other walls, so the ranks compare what they see before they begin.

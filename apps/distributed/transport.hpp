@@ -11,18 +11,16 @@
 #include <span>
 
 #include "core/base/packed_values.hpp"
+#include "core/base/types.hpp"
 #include "core/run/execution.hpp"
 
 namespace warren::distributed {
 
 /// Messages between two ranks arrive in their order. One call at a time. Waits sleep, poll the deadline and throw
 /// Stopped.
-class Transport {
+class Transport : NotCopied {
  public:
-  Transport() = default;
   virtual ~Transport() = default;
-  Transport(const Transport&) = delete;
-  Transport& operator=(const Transport&) = delete;
   virtual unsigned rank() const = 0;  ///< 0 .. ranks() - 1
   virtual unsigned ranks() const = 0;
   /// Returns when the bytes may be changed.

@@ -11,12 +11,6 @@ namespace {
 
 using Numbers = py::array_t<double, py::array::c_style>;
 
-std::string wanted(std::initializer_list<std::size_t> columns) {
-  std::string text;
-  for (const std::size_t n : columns) text += fmt::format("{}(n, {})", text.empty() ? "" : " or ", n);
-  return text;
-}
-
 Numbers converted(py::handle value, const std::string& name, const std::string& shape) {
   if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) {
     for (const py::handle row : value) refuse_masked(row, name);
@@ -52,7 +46,7 @@ bool is_whole(py::handle value) {
 }
 
 NumberRows rows_of(py::handle value, const std::string& name, std::initializer_list<std::size_t> columns) {
-  const std::string shape = wanted(columns);
+  const std::string shape = fmt::format("(n, {})", fmt::join(columns.begin(), columns.end(), ") or (n, "));
   refuse_masked(value, name);
   if (!py::isinstance<py::array>(value) || is_whole(value)) {
     Numbers numbers = converted(value, name, shape);

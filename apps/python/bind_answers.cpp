@@ -21,6 +21,7 @@
 
 namespace warren::python {
 namespace py = pybind11;
+using namespace py::literals;
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -67,27 +68,18 @@ py::list improvements_of(const Answer& answer) {
 
 py::object blocked_of(const Answer& answer) {
   if (!answer.blocked) return py::none();
-  py::dict blocked;
-  blocked["end"] = answer.blocked->is_start ? "start" : "goal";
-  blocked["by"] = answer.blocked->by;
-  const bool is_place = !answer.blocked->free_place.empty();
-  blocked["free_place"] = is_place ? py::object(py::tuple(py::cast(answer.blocked->free_place))) : py::none();
-  blocked["distance"] = is_place ? std::optional(answer.blocked->distance) : std::nullopt;
-  blocked["hint"] = answer.blocked->hint.empty() ? std::nullopt : std::optional(answer.blocked->hint);
-  blocked["room"] = answer.blocked->room;
-  blocked["needed"] = answer.blocked->needed;
-  blocked["depth"] = answer.blocked->depth;
-  return blocked;
+  const BlockedEnd& end = *answer.blocked;
+  const bool is_place = !end.free_place.empty();
+  return py::dict("end"_a = end.is_start ? "start" : "goal", "by"_a = end.by,
+                  "free_place"_a = is_place ? py::object(py::tuple(py::cast(end.free_place))) : py::none(),
+                  "distance"_a = is_place ? std::optional(end.distance) : std::nullopt,
+                  "hint"_a = end.hint.empty() ? std::nullopt : std::optional(end.hint), "room"_a = end.room,
+                  "needed"_a = end.needed, "depth"_a = end.depth);
 }
 
 py::dict price_of(const PriceParts& price) {
-  py::dict parts;
-  parts["clearance"] = price.clearance;
-  parts["areas"] = price.areas;
-  parts["turning"] = price.turning;
-  parts["cusps"] = price.cusps;
-  parts["reverse"] = price.reverse;
-  return parts;
+  return py::dict("clearance"_a = price.clearance, "areas"_a = price.areas, "turning"_a = price.turning,
+                  "cusps"_a = price.cusps, "reverse"_a = price.reverse);
 }
 
 py::object reached_of(const Answer& answer) {
@@ -182,10 +174,7 @@ py::dict save_path(const Answer& answer, const std::string& file, const py::dict
   if (!answer.verified) throw py::value_error("save_path: the answer has no path");
   const PathFileAccount account =
       CallLimits().run([&](const Execution& on) { return write_path_file(answer, file, options, on); });
-  py::dict told;
-  told["places"] = account.places;
-  told["duration_s"] = account.duration_s;
-  return told;
+  return py::dict("places"_a = account.places, "duration_s"_a = account.duration_s);
 }
 
 /// A figure that an answer has or has not.

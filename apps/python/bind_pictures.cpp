@@ -4,7 +4,6 @@
 
 #include "apps/python/arrays.hpp"
 #include "apps/python/bind.hpp"
-#include "apps/python/kept_roadmap.hpp"
 #include "apps/python/keywords.hpp"
 #include "apps/python/library_calls.hpp"
 #include "pictures/draw_answer.hpp"
@@ -126,11 +125,8 @@ void bind_pictures(py::module_& module) {
   module.def("picture_of_answer", &picture_of_answer);
   module.def("picture_of_roadmap", &picture_of_roadmap);
   module.def("write_file", [](const std::string& file, const py::bytes& bytes) {
-    CallLimits().run([&, text = std::string_view(bytes)](const Execution& execution) {
-      OutputFile out(file, execution);
-      out.write(text);
-      out.commit();
-    });
+    CallLimits().run(
+        [&, text = std::string_view(bytes)](const Execution& execution) { write_file(file, text, execution); });
   });
   module.def("picture_keywords", [] { return keyword_table(made_once<drawing>()); });
   module.def("segments_of", &segments_of);

@@ -11,7 +11,6 @@
 
 #include "apps/python/arrays.hpp"
 #include "apps/python/bind.hpp"
-#include "apps/python/kept_roadmap.hpp"
 #include "apps/python/keywords.hpp"
 #include "apps/python/library_calls.hpp"
 #include "core/base/error.hpp"
@@ -27,6 +26,7 @@
 
 namespace warren::python {
 namespace py = pybind11;
+using namespace py::literals;
 namespace {
 
 /// Rows of edges as RoadmapParts has them, with their lengths.
@@ -38,7 +38,6 @@ struct EdgeRows {
 
 /// The edges that are known to be free. Throws Stopped.
 EdgeRows free_rows(const KeptRoadmap& kept, const Execution& execution) {
-  constexpr std::size_t polled = 4096;
   const RoadmapArrays& arrays = kept.arrays(execution);
   const RoadmapParts parts = arrays.parts();
   const RoadmapQuery* asked = kept.roadmap().lattice == nullptr ? &kept.query(execution) : nullptr;
@@ -47,7 +46,7 @@ EdgeRows free_rows(const KeptRoadmap& kept, const Execution& execution) {
   rows.first.reserve(parts.first.size());
   rows.first.push_back(0);
   for (std::size_t v = 0; v < parts.vertex_count(); ++v) {
-    if (v % polled == 0) execution.check();
+    execution.poll(v);
     for (std::size_t end = parts.first[v]; end < parts.first[v + 1]; ++end) {
       if (parts.state_of_end(end) != EdgeState::free) continue;
       rows.to.push_back(parts.to[end]);
@@ -176,12 +175,9 @@ py::tuple update_roadmap(KeptRoadmap& old, const Scene& now, py::dict keywords) 
   Kept next = limits.run([&](const Execution& execution) {
     return std::make_unique<KeptRoadmap>(update(old.roadmap(), now, execution, &account));
   });
-  py::dict report;
-  report["mode"] = account.built_anew ? "built" : "changed";
-  report["edges"] = account.edges;
-  report["edges_checked"] = account.edges_checked;
-  report["states_added"] = account.states_added;
-  report["states_dropped"] = account.states_dropped;
+  const py::dict report("mode"_a = account.built_anew ? "built" : "changed", "edges"_a = account.edges,
+                        "edges_checked"_a = account.edges_checked, "states_added"_a = account.states_added,
+                        "states_dropped"_a = account.states_dropped);
   return py::make_tuple(py::cast(std::move(next)), report);
 }
 
@@ -278,12 +274,8 @@ py::dict export_to(KeptRoadmap& kept, const std::string& file, bool unchecked, c
   const ExportAccount account = CallLimits().run([&](const Execution& execution) {
     return export_of_roadmap(kept.roadmap(), file, {.with_unchecked = unchecked, .frame = frame}, execution);
   });
-  py::dict told;
-  told["vertices"] = account.vertices;
-  told["edges"] = account.edges;
-  told["unchecked_left_out"] = account.unchecked_left_out;
-  told["blocked_left_out"] = account.blocked_left_out;
-  return told;
+  return py::dict("vertices"_a = account.vertices, "edges"_a = account.edges,
+                  "unchecked_left_out"_a = account.unchecked_left_out, "blocked_left_out"_a = account.blocked_left_out);
 }
 
 py::tuple counts(KeptRoadmap& kept) {
@@ -299,6 +291,45 @@ void learn_from_questions(KeptRoadmap& kept) {
 }
 
 }  // namespace
+
+const RoadmapQuery& KeptRoadmap::query(const Execution& execution) const {
+  return query_.get(execution, [&] { return std::make_unique<RoadmapQuery>(roadmap_, execution, Questions::many); });
+}
+
+const RoadmapArrays& KeptRoadmap::arrays(const Execution& execution) const {
+  if (roadmap_.lattice == nullptr) return roadmap_.arrays;
+  return lattice_.get(
+      execution, [&] { return std::make_unique<RoadmapArrays>(arrays_of(roadmap_.lattice->passages(), execution)); });
+}
+
+const RawVector<double>& KeptRoadmap::lengths(const Execution& execution) const {
+  return lengths_.get(execution, [&] {
+    constexpr std::size_t grain = 1024;
+    const Graph& graph = arrays(execution).candidates;
+    execution.reserve(graph.targets().size() * sizeof(double));
+    auto lengths = std::make_unique<RawVector<double>>(graph.targets().size());
+    const RoadmapQuery* asked = roadmap_.lattice == nullptr ? &query(execution) : nullptr;
+    for_chunks(graph.vertex_count(), grain, execution, [&](Range r) {
+      for (std::size_t v = r.first; v < r.last; ++v) {
+        const auto from = static_cast<VertexId>(v);
+        std::size_t end = graph.first_end(from);
+        for (const VertexId to : graph.neighbours(from)) (*lengths)[end++] = length(from, to, asked);
+      }
+    });
+    return lengths;
+  });
+}
+
+/// Of an edge that leads both ways from its smaller vertex, as exports have it. `query`: nullptr for a lattice.
+double KeptRoadmap::length(VertexId from, VertexId to, const RoadmapQuery* query) const {
+  if (query == nullptr) return 1.0;
+  const bool turned = !roadmap_.arrays.directed && to < from;
+  return turned ? query->distance(to, from) : query->distance(from, to);
+}
+
+void KeptRoadmap::learn(const Execution& execution) {
+  if (roadmap_.lattice == nullptr) warren::learn(roadmap_, query(execution), execution);
+}
 
 void bind_roadmaps(py::module_& module) {
   py::class_<KeptRoadmap>(module, "Roadmap")
@@ -318,7 +349,6 @@ void bind_roadmaps(py::module_& module) {
                                return planner ? std::optional(name_of(*planner)) : std::nullopt;
                              })
       .def_property_readonly("directed", [](const KeptRoadmap& kept) { return kept.roadmap().arrays.directed; })
-      .def_property_readonly("indexed", [](const KeptRoadmap& kept) { return kept.roadmap().lattice != nullptr; })
       .def("ask", &ask)
       .def("lengths", &lengths)
       .def("all_rows", &all_rows)

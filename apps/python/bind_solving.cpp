@@ -29,6 +29,7 @@
 
 namespace warren::python {
 namespace py = pybind11;
+using namespace py::literals;
 namespace {
 
 tools::Command solving() {
@@ -103,17 +104,12 @@ KeptAnswer solve_scene(const Scene& scene, py::dict keywords, bool keep, bool ex
 }
 
 py::dict told(const Verdict& verdict, const std::optional<NarrowPlace>& narrow) {
-  py::dict account;
-  account["verified"] = verdict.verified;
-  account["length"] = verdict.length;
-  account["min_clearance"] = verdict.min_clearance;
-  account["violation"] = py::none();
-  if (const auto& violation = verdict.first_violation) {
-    account["violation"] = py::make_tuple(violation->leg, violation->distance, violation->obstacle);
-  }
-  account["narrowest"] = narrowest_json(narrow);
-  account["ended"] = py::none();
-  return account;
+  const auto& violation = verdict.first_violation;
+  return py::dict(
+      "verified"_a = verdict.verified, "length"_a = verdict.length, "min_clearance"_a = verdict.min_clearance,
+      "violation"_a =
+          violation ? py::object(py::make_tuple(violation->leg, violation->distance, violation->obstacle)) : py::none(),
+      "narrowest"_a = narrowest_json(narrow), "ended"_a = py::none());
 }
 
 /// With explain the narrowest place of a free path, too; "ended" says what stopped the search for it.

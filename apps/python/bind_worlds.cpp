@@ -172,10 +172,33 @@ MazeHint read_maze(py::handle value) {
   return {static_cast<std::uint32_t>(rows), static_cast<std::uint32_t>(cols)};
 }
 
+/// Throws InputError for polygons that are not simple and walls that no maze has, Stopped.
+void check_scene(const Scene& scene) {
+  CallLimits().run([&](const Execution& execution) {
+    check_polygons(scene, execution);
+    if (!scene.maze) return;
+    if (const auto off = first_wall_off_grid(scene.walls, *scene.maze, execution)) {
+      throw InputError(fmt::format("walls[{}]", *off), "is not on the unit grid of the maze");
+    }
+  });
+}
+
+tools::Command reading() { return command_of("read_world", {tools::world_option_specs()}); }
+tools::Command question_of_world() { return command_of("scene", {tools::question_option_specs()}, {"--contact"}); }
+
+/// What scene files say beside obstacles: start, goal, robot, clearance.
+void take_question(Scene& scene, const py::dict& keywords) {
+  Question question = tools::question_words(arguments_of(made_once<question_of_world>(), keywords));
+  question.validate();
+  if (!question.start.empty()) scene.start = std::move(question.start);
+  if (!question.goal.empty()) scene.goal = std::move(question.goal);
+  if (question.robot) scene.robot = std::move(question.robot);
+  if (question.clearance) scene.clearance = question.clearance;
+}
+
 /// A world from what Python holds: parts: walls (n, 4), float32 or float64; polygons, a list of rings (n, 2); spheres
-/// (n, 4); boxes (n, 6); solids, lines; bounds (4,); maze (rows, cols); source. All but the checks of polygons, which
-/// need no lock: check_scene. Throws TypeError, InputError.
-Scene scene_of_arrays(const py::dict& parts) {
+/// (n, 4); boxes (n, 6); solids, lines; bounds (4,); maze (rows, cols); source. Throws TypeError, InputError.
+Scene made_of_arrays(const py::dict& parts, const py::dict& keywords) {
   const auto part = [&](const char* name) -> py::object { return parts.attr("get")(name); };
   Scene scene;
   const py::object source = part("source");
@@ -188,12 +211,15 @@ Scene scene_of_arrays(const py::dict& parts) {
   if (const py::object solids = part("solids"); !solids.is_none()) add_solids(scene, solids);
   if (const py::object bounds = part("bounds"); !bounds.is_none()) scene.bounds = read_bounds(bounds);
   if (const py::object maze = part("maze"); !maze.is_none()) scene.maze = read_maze(maze);
+  take_question(scene, keywords);
+  check_scene(scene);
   return scene;
 }
 
 /// A map of cells: bool or uint8 (rows, columns) in any layout, what is not 0 is blocked, row 0 is the top.
 /// origin: lower left corner. Throws TypeError, InputError.
-Scene scene_of_cells(const py::array& cells, double cell, std::array<double, 2> origin, double yaw_rad) {
+Scene made_of_cells(const py::array& cells, double cell, std::array<double, 2> origin, double yaw_rad,
+                    const py::dict& keywords) {
   refuse_masked(cells, "cells");
   const bool is_byte = cells.dtype().kind() == 'b' || (cells.dtype().kind() == 'u' && cells.itemsize() == 1);
   if (!is_byte || cells.ndim() != 2) {
@@ -222,29 +248,8 @@ Scene scene_of_cells(const py::array& cells, double cell, std::array<double, 2> 
   Scene scene;
   scene.source = map.source;
   scene.map = std::move(map);
+  take_question(scene, keywords);
   return scene;
-}
-
-/// Throws InputError for polygons that are not simple and walls that no maze has, Stopped.
-void check_scene(const Scene& scene, const Execution& execution) {
-  check_polygons(scene, execution);
-  if (!scene.maze) return;
-  if (const auto off = first_wall_off_grid(scene.walls, *scene.maze, execution)) {
-    throw InputError(fmt::format("walls[{}]", *off), "is not on the unit grid of the maze");
-  }
-}
-
-tools::Command reading() { return command_of("read_world", {tools::world_option_specs()}); }
-tools::Command question_of_world() { return command_of("scene", {tools::question_option_specs()}, {"--contact"}); }
-
-/// What scene files say beside obstacles: start, goal, robot, clearance.
-void take_question(Scene& scene, const py::dict& keywords) {
-  Question question = tools::question_words(arguments_of(made_once<question_of_world>(), keywords));
-  question.validate();
-  if (!question.start.empty()) scene.start = std::move(question.start);
-  if (!question.goal.empty()) scene.goal = std::move(question.goal);
-  if (question.robot) scene.robot = std::move(question.robot);
-  if (question.clearance) scene.clearance = question.clearance;
 }
 
 Scene read_named(const std::string& source, py::dict keywords) {
@@ -266,20 +271,6 @@ Scene read_example(const std::string& name, const std::string& folder) {
   const tools::Example example = tools::example_named(name);
   Scene scene = read_named(tools::write_example_files(example, folder), {});
   scene.source = example.files.front();
-  return scene;
-}
-
-Scene made_of_arrays(const py::dict& parts, const py::dict& keywords) {
-  Scene scene = scene_of_arrays(parts);
-  take_question(scene, keywords);
-  CallLimits().run([&](const Execution& execution) { check_scene(scene, execution); });
-  return scene;
-}
-
-Scene made_of_cells(const py::array& cells, double cell, std::array<double, 2> origin, double yaw_rad,
-                    const py::dict& keywords) {
-  Scene scene = scene_of_cells(cells, cell, origin, yaw_rad);
-  take_question(scene, keywords);
   return scene;
 }
 
@@ -323,8 +314,9 @@ py::object box_of(const Box& box) {
   return py::make_tuple(box.min.x, box.min.y, box.max.x, box.max.y);
 }
 
-template <class T>
-py::array solids_of(const std::vector<T>& solids, py::ssize_t columns, const py::object& self) {
+template <auto kind, py::ssize_t columns>
+py::array solids_of(const py::object& self) {
+  const auto& solids = self.cast<const Scene&>().*kind;
   if (solids.empty()) return read_only(py::array_t<double>(Shape{0, columns}));
   const Shape shape = shape_of(solids.size(), columns);
   return view_of(reinterpret_cast<const double*>(solids.data()), shape, self);  // NOLINT: doubles alone
@@ -353,14 +345,11 @@ Scene with_other_walls(const Scene& scene, const std::vector<std::int64_t>& gone
     if (!is_gone[i]) walls.push_back(scene.walls.segment(i));
   }
   if (!added.is_none()) {
-    py::dict parts;
-    parts["walls"] = added;
-    parts["source"] = "";
-    const Scene more = scene_of_arrays(parts);
-    for (std::size_t i = 0; i < more.walls.size(); ++i) walls.push_back(more.walls.segment(i));
+    const WallSet more = read_walls(added);
+    for (std::size_t i = 0; i < more.size(); ++i) walls.push_back(more.segment(i));
   }
   next.walls = WallSet::narrowest(walls);
-  CallLimits().run([&](const Execution& execution) { check_scene(next, execution); });
+  check_scene(next);
   return next;
 }
 
@@ -395,9 +384,8 @@ void bind_what_is_seen(py::class_<Scene>& scene) {
       .def_property_readonly("walls", &walls_of)
       .def_property_readonly("polygons", &polygons_of)
       .def_property_readonly("cells", &cells_of)
-      .def_property_readonly("spheres",
-                             [](const py::object& s) { return solids_of(s.cast<const Scene&>().spheres, 4, s); })
-      .def_property_readonly("boxes", [](const py::object& s) { return solids_of(s.cast<const Scene&>().boxes, 6, s); })
+      .def_property_readonly("spheres", &solids_of<&Scene::spheres, 4>)
+      .def_property_readonly("boxes", &solids_of<&Scene::boxes, 6>)
       .def_property_readonly("solids",
                              [](const Scene& s) {
                                py::list lines;

@@ -116,6 +116,18 @@ CallLimits::CallLimits(unsigned threads, std::optional<double> budget_s, std::op
   limits_.memory = memory;
 }
 
+/// False where nothing more is to be told.
+template <class News>
+bool CallLimits::tell(const News& news) noexcept {
+  bool goes_on = false;
+  or_sleep_at_exit([&] {
+    const PyGILState_STATE state = PyGILState_Ensure();
+    goes_on = !failure_ && ask_python(news);
+    PyGILState_Release(state);
+  });
+  return goes_on;
+}
+
 Limits CallLimits::limits(const SignalWatch& watch) {
   flag_ = &watch.flag_or(own_flag_);
   limits_.cancel = flag_;
@@ -124,32 +136,15 @@ Limits CallLimits::limits(const SignalWatch& watch) {
   return limits_;
 }
 
-void CallLimits::tell(const ProgressReport& report) noexcept {
-  or_sleep_at_exit([&] {
-    const PyGILState_STATE state = PyGILState_Ensure();
-    if (!failure_) ask_python(report);
-    PyGILState_Release(state);
-  });
-}
-
-void CallLimits::ask_python(const ProgressReport& report) {
+bool CallLimits::ask_python(const ProgressReport& report) {
   PyObject* stage = PyUnicode_FromStringAndSize(report.stage.data(), static_cast<Py_ssize_t>(report.stage.size()));
   PyObject* said = PyObject_CallFunction(progress_.ptr(), "NKK", stage, static_cast<unsigned long long>(report.done),
                                          static_cast<unsigned long long>(report.total));
   Py_XDECREF(said);
-  if (said != nullptr) return;
+  if (said != nullptr) return true;
   failure_.emplace();
   flag_->store(SIGINT, std::memory_order_relaxed);
-}
-
-bool CallLimits::tell(const Improvement& improvement) noexcept {
-  bool goes_on = false;
-  or_sleep_at_exit([&] {
-    const PyGILState_STATE state = PyGILState_Ensure();
-    goes_on = !failure_ && ask_python(improvement);
-    PyGILState_Release(state);
-  });
-  return goes_on;
+  return false;
 }
 
 bool CallLimits::ask_python(const Improvement& improvement) {

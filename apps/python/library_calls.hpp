@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "core/base/solution.hpp"
+#include "core/base/types.hpp"
 #include "core/run/execution.hpp"
 #include "solve/question/limits.hpp"
 
@@ -22,12 +23,10 @@ namespace warren::python {
 /// While it lives on the main thread, signals that Python handles stop the call. Does nothing on other threads, as
 /// Python does. Of calls within a call the outermost alone does so. Nothing else of Python runs on that thread
 /// meanwhile: a handler may set another one, and may compute itself. Made and ended with the interpreter's lock held.
-class SignalWatch {
+class SignalWatch : NotCopied {
  public:
   SignalWatch();
   ~SignalWatch();
-  SignalWatch(const SignalWatch&) = delete;
-  SignalWatch& operator=(const SignalWatch&) = delete;
 
   /// The flag that signals set, if any do; else `other`.
   SignalFlag& flag_or(SignalFlag& other) const;
@@ -38,12 +37,10 @@ class SignalWatch {
 
 /// While it lives, the interpreter's lock is free for others. A thread that wants it back when the interpreter has
 /// ended sleeps until the process ends, too: CPython would unwind its stack, through destructors, and abort.
-class Unlocked {
+class Unlocked : NotCopied {
  public:
   Unlocked() : state_(PyEval_SaveThread()) {}
   ~Unlocked();
-  Unlocked(const Unlocked&) = delete;
-  Unlocked& operator=(const Unlocked&) = delete;
 
  private:
   PyThreadState* state_;
@@ -91,9 +88,9 @@ class CallLimits {
     return work(limited.execution());
   }
   Limits limits(const SignalWatch& watch);
-  void tell(const ProgressReport& report) noexcept;
-  void ask_python(const ProgressReport& report);
-  bool tell(const Improvement& improvement) noexcept;
+  template <class News>
+  bool tell(const News& news) noexcept;
+  bool ask_python(const ProgressReport& report);
   bool ask_python(const Improvement& improvement);
   void raise_failure();
 

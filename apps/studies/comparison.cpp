@@ -27,15 +27,12 @@ std::optional<Distribution> distribution(const Contender& contender, const Figur
   return distribution_of(values);
 }
 
-/// A run that was cut says nothing about others.
-bool is_known(const Contender& c) {
-  return c.deterministic && !c.runs.empty() && c.runs.front().outcome != Outcome::stopped;
-}
-
 Interval success_of(const Contender& contender, const ComparisonRow& row) {
   if (row.runs == 0) return {0.0, 1.0};
   const double solved = row.solved > 0 ? 1.0 : 0.0;
-  return is_known(contender) ? Interval{solved, solved} : wilson_interval(row.solved, row.runs);
+  // A run that was cut says nothing about others.
+  const bool is_known = contender.deterministic && contender.runs.front().outcome != Outcome::stopped;
+  return is_known ? Interval{solved, solved} : wilson_interval(row.solved, row.runs);
 }
 
 /// "samples 50", "full"
@@ -64,53 +61,34 @@ std::vector<std::string> name_parts(const Contender& c, bool with_planner) {
   return parts;
 }
 
-constexpr double least_s = 1e-9;  // a time that the clock's cost has eaten up
-
-bool same_way(const SweepCurve& curve, const Contender& c) {
-  return curve.search == c.search && curve.queue == c.queue && curve.library == c.library;
-}
-
-/// The line y = level + slope · x of least squares; none where all x are alike.
-struct Line {
-  double level;
-  double slope;
-};
-std::optional<Line> fitted_line(const std::vector<Vec2>& points) {
+/// Where the line of least squares through these points, both axes as logarithms, rises through 1.
+std::optional<double> rise_through_one(const std::vector<Vec2>& points) {
+  std::vector<Vec2> logarithms;
   Vec2 mean;
-  for (const Vec2 p : points) mean = mean + p;
+  for (const Vec2 p : points) {
+    logarithms.push_back({std::log(p.x), std::log(p.y)});
+    mean = mean + logarithms.back();
+  }
   mean = 1.0 / static_cast<double>(points.size()) * mean;
   double xx = 0.0;
   double xy = 0.0;
-  for (const Vec2 p : points) {
+  for (const Vec2 p : logarithms) {
     xx += (p.x - mean.x) * (p.x - mean.x);
     xy += (p.x - mean.x) * (p.y - mean.y);
   }
-  if (xx <= 0.0) return std::nullopt;
-  return Line{mean.y - xy / xx * mean.x, xy / xx};
-}
-
-/// Where the line through these points, both axes as logarithms, rises through 1.
-std::optional<double> rise_through_one(const std::vector<Vec2>& points) {
-  std::vector<Vec2> logarithms;
-  for (const Vec2 p : points) logarithms.push_back({std::log(p.x), std::log(p.y)});
-  const std::optional<Line> line = fitted_line(logarithms);
-  if (!line || line->slope <= 0.0) return std::nullopt;
-  const double size = std::exp(-line->level / line->slope);
+  if (xx <= 0.0 || xy / xx <= 0.0) return std::nullopt;  // all x are alike, or it falls
+  const double slope = xy / xx;
+  const double size = std::exp(-(mean.y - slope * mean.x) / slope);
   return std::isfinite(size) ? std::optional(size) : std::nullopt;
 }
 
-std::vector<Vec2> ratios_of(const SweepCurve& array, const SweepCurve& heap) {
-  std::vector<Vec2> ratios;
+QueueCrossing crossing_of(const SweepCurve& array, const SweepCurve& heap) {
+  QueueCrossing c{.search = array.search, .array = array.queue, .heap = heap.queue, .ratios = {}};
   for (const Vec2 a : array.points) {
     for (const Vec2 h : heap.points) {
-      if (a.x == h.x) ratios.push_back({a.x, a.y / h.y});
+      if (a.x == h.x) c.ratios.push_back({a.x, a.y / h.y});
     }
   }
-  return ratios;
-}
-
-QueueCrossing crossing_of(const SweepCurve& array, const SweepCurve& heap) {
-  QueueCrossing c{.search = array.search, .array = array.queue, .heap = heap.queue, .ratios = ratios_of(array, heap)};
   const auto last_not_slower = std::find_if(c.ratios.rbegin(), c.ratios.rend(), [](Vec2 r) { return r.y <= 1.0; });
   if (last_not_slower != c.ratios.rend()) c.not_slower_at = last_not_slower->x;
   if (last_not_slower != c.ratios.rbegin()) c.slower_from = std::prev(last_not_slower)->x;
@@ -207,13 +185,16 @@ std::vector<std::size_t> turns(std::size_t count, std::uint64_t round) {
 }
 
 std::vector<SweepCurve> sweep_curves(const Comparison& comparison) {
+  constexpr double least_s = 1e-9;  // a time that the clock's cost has eaten up
   std::vector<SweepCurve> curves;
   std::vector<std::map<std::uint64_t, std::vector<double>>> medians;  // of each curve, by size
   for (const Contender& c : comparison.contenders) {
     const ComparedProblem& problem = comparison.problems[c.problem];
     const ComparisonRow row = row_of(c);
     if (problem.kind != "geometric" || row.solved == 0 || row.solved < row.runs) continue;
-    const auto curve = std::find_if(curves.begin(), curves.end(), [&](const auto& s) { return same_way(s, c); });
+    const auto curve = std::find_if(curves.begin(), curves.end(), [&](const SweepCurve& s) {
+      return s.search == c.search && s.queue == c.queue && s.library == c.library;
+    });
     const auto place = static_cast<std::size_t>(curve - curves.begin());
     if (curve == curves.end()) {
       curves.push_back({c.search, c.queue, c.library, {}});

@@ -159,15 +159,6 @@ std::string csv_row(const Comparison& comparison, const Contender& c) {
                    problem.kind.empty() ? fmt::format("{}", c.deterministic) : ""});
 }
 
-/// All options that some contender has, in the order in which they are met.
-std::vector<std::string> option_names(const Comparison& comparison) {
-  std::vector<std::string> names;
-  for (const Contender& c : comparison.contenders) {
-    for (const auto& [name, value] : c.options) add_once(names, name);
-  }
-  return names;
-}
-
 /// As text: a word without its quotation marks.
 std::string option_value(const Contender& c, const std::string& name) {
   for (const auto& [option, value] : c.options) {
@@ -175,17 +166,6 @@ std::string option_value(const Contender& c, const std::string& name) {
     if (option == name) return is_word ? value.substr(1, value.size() - 2) : value;
   }
   return {};
-}
-
-/// Stages that some run had, in the order in which they are met.
-std::vector<std::string> cost_names(const Comparison& comparison) {
-  std::vector<std::string> names;
-  for (const Contender& c : comparison.contenders) {
-    for (const ComparedRun& run : c.runs) {
-      for (const StageCost& cost : run.costs) add_once(names, std::string(cost.name));
-    }
-  }
-  return names;
 }
 
 /// Wall-clock and CPU time of each; empty where the run had no such stage.
@@ -223,11 +203,6 @@ constexpr std::string_view statuses =
     "status|Unknown status|Invalid start|Invalid goal|Unrecognized goal type|Timeout|Approximate solution|"
     "Exact solution|Crash|Abort|Infeasible|Not connected";
 
-int status_of(Outcome outcome) {
-  constexpr std::array<int, 6> by_outcome{6, 1, 2, 10, 9, 4};
-  return by_outcome[static_cast<std::size_t>(outcome)];
-}
-
 std::string planner_name(const Contender& contender) {
   std::string name = contender.library + "_" + contender_name(contender, true);
   for (const auto& [option, value] : contender.options) name += "_" + option + "_" + value;
@@ -246,9 +221,10 @@ constexpr std::string_view properties =
     "solution segments INTEGER\nstates expanded INTEGER\nsearch time REAL\nseed INTEGER\n";
 
 std::string run_line(const ComparedRun& run) {
+  constexpr std::array<int, 6> by_outcome{6, 1, 2, 10, 9, 4};
   const int solved = run.solved() ? 1 : 0;
-  return fmt::format("{}; {}; {}; {}; {}; {}; {}; {}; {}; {}; \n", status_of(run.outcome), run.time_s, solved, solved,
-                     known(run.solved(), run.length),
+  return fmt::format("{}; {}; {}; {}; {}; {}; {}; {}; {}; {}; \n", by_outcome[static_cast<std::size_t>(run.outcome)],
+                     run.time_s, solved, solved, known(run.solved(), run.length),
                      known(run.solved() && run.min_clearance, run.min_clearance.value_or(0.0)),
                      known(run.solved(), run.hops), run.expanded,
                      known(run.search_s.has_value(), run.search_s.value_or(0.0)), run.seed);
@@ -288,7 +264,14 @@ std::string comparison_csv(const Comparison& comparison) {
 }
 
 std::string comparison_runs(const Comparison& comparison) {
-  const std::vector<std::string> options = option_names(comparison);
+  std::vector<std::string> options;  // those that some contender has, in the order in which they are met
+  std::vector<std::string> costs;    // and stages that some run had
+  for (const Contender& c : comparison.contenders) {
+    for (const auto& [name, value] : c.options) add_once(options, name);
+    for (const ComparedRun& run : c.runs) {
+      for (const StageCost& cost : run.costs) add_once(costs, std::string(cost.name));
+    }
+  }
   std::vector<std::string> head{"source", "planner", "search", "queue", "library"};
   for (const std::string& name : options) head.push_back("option_" + name);
   for (const char* name :
@@ -297,7 +280,6 @@ std::string comparison_runs(const Comparison& comparison) {
         "edges_checked", "rounds", "refused",  "milestones",    "edges",    "components"}) {
     head.emplace_back(name);
   }
-  const std::vector<std::string> costs = cost_names(comparison);
   for (std::string name : costs) {
     std::replace(name.begin(), name.end(), ' ', '_');
     head.push_back("stage_" + name + "_s");

@@ -2,21 +2,32 @@
 // Plots of a comparison. Random graphs: for each search that takes a queue, times against size, and beside them the
 // ratios to the heap, whose crossing of 1 is where array and heap cross. Else: what options that were dealt out do
 // for each contender the share of its runs that had found a path, against time, and how its lengths, times and
-// clearances are spread.
+// clearances are spread; of planners that get better what their paths cost against time.
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <utility>
 
 #include "apps/studies/comparison_report.hpp"
 #include "apps/studies/statistics.hpp"
 #include "scenes/scene/scene.hpp"
+#include "solve/question/solve_options.hpp"
 
 namespace warren::studies {
 namespace {
+
+Plot solved_plot(const ComparedProblem& problem) {
+  return {.title = problem.source + ": solved",
+          .x_label = "seconds",
+          .y_label = "per cent of the runs solved within",
+          .log_x = true,
+          .from_zero = true};
+}
 
 std::string series_name(const SweepCurve& curve) {
   if (curve.library != "warren") return curve.library;
@@ -35,8 +46,7 @@ Plot time_plot(const std::vector<SweepCurve>& curves, const std::string& search)
             .x_label = "vertices",
             .y_label = "seconds a search (median)",
             .log_x = true,
-            .log_y = true,
-            .series = {}};
+            .log_y = true};
   for (const SweepCurve& curve : curves) {
     if (curve.search != search) continue;
     plot.series.push_back(
@@ -52,7 +62,6 @@ Plot ratio_plot(const std::vector<SweepCurve>& curves, const std::string& search
             .y_label = "time of the array over the heap's",
             .log_x = true,
             .log_y = true,
-            .series = {},
             .level = 1.0};
   std::string heap;
   for (const QueueCrossing& c : queue_crossings(curves)) {
@@ -129,20 +138,6 @@ constexpr BoxedFigure boxed_figures[] = {
      [](const ComparedRun& r) { return r.solved() ? r.min_clearance : std::nullopt; }, human_number},
 };
 
-std::optional<BoxFigures> figures_of(const Contender& contender, const BoxedFigure& figure) {
-  std::vector<double> values;
-  for (const ComparedRun& run : contender.runs) {
-    if (const auto value = figure.value(run)) values.push_back(*value);
-  }
-  return box_figures_of(std::move(values));
-}
-
-std::string solved_text(const Contender& contender) {
-  const auto solved =
-      std::count_if(contender.runs.begin(), contender.runs.end(), [](const ComparedRun& run) { return run.solved(); });
-  return fmt::format("{} of {}", solved == 0 ? "none" : std::to_string(solved), contender.runs.size());
-}
-
 /// Do boxes of values that reach over more than a decade leave most of them in a corner?
 bool is_spread(const BoxPlot& plot) {
   constexpr double wide = 10.0;
@@ -170,8 +165,15 @@ std::optional<BoxPlot> box_plot(const Comparison& comparison, std::size_t proble
   const std::vector<const Contender*> contenders = contenders_of(comparison, problem);
   const std::vector<std::string> names = plot_names_of(contenders, planners);
   for (std::size_t i = 0; i < contenders.size(); ++i) {
-    PlottedBox& box =
-        plot.boxes.emplace_back(PlottedBox{names[i], solved_text(*contenders[i]), figures_of(*contenders[i], figure)});
+    std::vector<double> values;
+    std::size_t solved = 0;
+    for (const ComparedRun& run : contenders[i]->runs) {
+      if (const auto value = figure.value(run)) values.push_back(*value);
+      solved += run.solved() ? 1 : 0;
+    }
+    const std::string remark =
+        fmt::format("{} of {}", solved == 0 ? "none" : std::to_string(solved), contenders[i]->runs.size());
+    PlottedBox& box = plot.boxes.emplace_back(PlottedBox{names[i], remark, box_figures_of(std::move(values))});
     any_differ =
         any_differ || (box.figures && (box.figures->low < box.figures->high || !box.figures->outliers.empty()));
   }
@@ -299,7 +301,7 @@ HeatMap heat_map(const Family& family, const ShownFigure& figure) {
 
 /// Over the values of an option. Nothing of an option whose values are no numbers.
 std::optional<PlotSeries> series_of(const Family& family, const std::string& option, const ShownFigure& figure) {
-  PlotSeries series{.name = family.name, .points = {}};
+  PlotSeries series{.name = family.name};
   std::map<double, const Contender*> by_value;
   for (const Contender* c : family.members) {
     if (const auto x = number_in_word(word_of(c->dealt, option))) by_value[*x] = c;
@@ -318,8 +320,7 @@ Plot plot_over(const std::string& option, const ShownFigure& figure) {
   return {.title = fmt::format("{} against {}", figure.name, spelled(option)),
           .x_label = spelled(option),
           .y_label = std::string(figure.label),
-          .from_zero = figure.text == per_cent,
-          .series = {}};
+          .from_zero = figure.text == per_cent};
 }
 
 /// What a heat map shows, as lines with intervals over one of its options, one a value of the other; nothing where
@@ -371,15 +372,168 @@ std::vector<PlotSheet> line_panels(const std::vector<Family>& families) {
   return panels;
 }
 
+// What a planner's runs had at each moment: the median of what their best paths until then cost, its quartiles, and the
+// share of the runs that had a path at all. A run costs infinitely much until its first path. Plots show some hundred
+// moments, evenly on a logarithmic axis; the figures at each are exact.
+// O(moments · runs · log runs).
+
+constexpr double never = std::numeric_limits<double>::infinity();
+constexpr double earliest_s = 1e-6;  // a logarithmic axis has no zero
+
+/// The moments that plots show, from the first path of all to the end of the longest run.
+struct CurveTimes {
+  double begin_s = never;
+  double end_s = 0.0;
+  void include(double seconds) {
+    begin_s = std::min(begin_s, std::max(seconds, earliest_s));
+    end_s = std::max(end_s, std::max(seconds, earliest_s));
+  }
+};
+
+/// Does it get better until it is stopped?
+bool has_curve(const Contender& contender) {
+  const auto planner = enum_named<PlannerKind>(contender.planner);
+  return planner && gets_better(*planner);
+}
+
+/// Runs of planners that get better, and those that found nothing, take longer than their last path.
+CurveTimes times_of(const std::vector<const Contender*>& contenders) {
+  CurveTimes times;
+  for (const Contender* c : contenders) {
+    for (const ComparedRun& run : c->runs) {
+      for (const Improvement& one : run.improvements) times.include(one.seconds);
+      if (has_curve(*c) || run.improvements.empty()) times.end_s = std::max(times.end_s, run.time_s);
+    }
+  }
+  times.begin_s = std::min(times.begin_s, times.end_s);
+  return times;
+}
+
+/// By the order statistics around it; infinite where one that counts is.
+double quantile_or_never(const std::vector<double>& sorted, double share) {
+  const double at = share * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(at);
+  const double part = at - static_cast<double>(below);
+  if (part == 0.0) return sorted[below];
+  return sorted[below + 1] == never ? never : std::lerp(sorted[below], sorted[below + 1], part);
+}
+
+/// What all costs are measured by, and what it is.
+struct CostUnit {
+  double cost = 1.0;
+  std::string name = {};  ///< empty: nothing is known, or it is 0
+};
+
+/// The best bound of all, since all are asked the same; where several clearances were dealt out they are not. A bound
+/// so far below that it would press all curves together is told, and the best path taken.
+CostUnit unit_of_costs(const std::vector<const Contender*>& contenders) {
+  constexpr double far = 2.0;
+  double bound = 0.0;
+  double best = never;
+  bool is_one_question = true;
+  for (const Contender* c : contenders) {
+    for (const auto& [option, word] : c->dealt) is_one_question = is_one_question && option != "clearance";
+    for (const ComparedRun& run : c->runs) {
+      bound = std::max(bound, run.lower_bound.value_or(0.0));
+      for (const Improvement& one : run.improvements) best = std::min(best, one.cost);
+    }
+  }
+  const bool has_bound = is_one_question && bound > 0.0;
+  if (!(best > 0.0 && best < never)) return {};
+  if (has_bound && best <= far * bound) return {bound, fmt::format("lower bound: {}", human_number(bound))};
+  std::string name = fmt::format("best of all: {}", human_number(best));
+  if (has_bound) name += fmt::format(", bound {}", human_number(bound));
+  return {best, std::move(name)};
+}
+
+Plot cost_plot(const ComparedProblem& problem, const CostUnit& unit) {
+  Plot plot{.title = problem.source + ": cost against time",
+            .x_label = "seconds",
+            .y_label = "cost, median and quartiles of the runs",
+            .log_x = true};
+  if (unit.name.empty()) return plot;
+  plot.y_label = fmt::format("cost over the {}, median and quartiles", unit.name.substr(0, unit.name.find(':')));
+  plot.level = 1.0;
+  plot.level_name = unit.name;
+  return plot;
+}
+
+/// Do costs reach over so much that a linear axis hides what is near the best?
+bool is_wide(const Plot& plot) {
+  constexpr double wide = 4.0;
+  double high = 0.0;
+  double low = never;
+  for (const PlotSeries& series : plot.series) {
+    for (const Vec2 p : series.points) {
+      if (p.y < never) low = std::min(low, p.y), high = std::max(high, p.y);
+    }
+  }
+  return low > 0.0 && high > wide * low;
+}
+
 }  // namespace
 
-Plot solved_plot(const ComparedProblem& problem) {
-  return {.title = problem.source + ": solved",
-          .x_label = "seconds",
-          .y_label = "per cent of the runs solved within",
-          .log_x = true,
-          .from_zero = true,
-          .series = {}};
+CostCurve cost_curve(const Contender& contender, double begin_s, double end_s) {
+  constexpr double most_moments = 500.0;
+  const double step = std::pow(end_s / begin_s, 1.0 / most_moments);
+  CostCurve curve;
+  std::vector<double> costs(contender.runs.size(), never);
+  const auto tell = [&](double seconds) {
+    std::vector<double> sorted = costs;
+    std::sort(sorted.begin(), sorted.end());
+    curve.median.push_back({seconds, quantile_or_never(sorted, 0.5)});
+    curve.quartiles.push_back({quantile_or_never(sorted, 0.25), quantile_or_never(sorted, 0.75)});
+    const auto solved = std::lower_bound(sorted.begin(), sorted.end(), never) - sorted.begin();
+    curve.solved.push_back({seconds, 100.0 * static_cast<double>(solved) / static_cast<double>(costs.size())});
+  };
+  if (costs.empty()) return curve;
+  curve.solved.push_back({begin_s, 0.0});
+  struct BetterPath {
+    double seconds;
+    std::size_t run;
+    double cost;
+  };
+  std::vector<BetterPath> all;  // of all runs, in the order of time
+  for (std::size_t i = 0; i < contender.runs.size(); ++i) {
+    for (const Improvement& one : contender.runs[i].improvements) {
+      all.push_back({std::max(one.seconds, earliest_s), i, one.cost});
+    }
+  }
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.seconds < b.seconds; });
+  double told_s = 0.0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    costs[all[i].run] = std::min(costs[all[i].run], all[i].cost);
+    const bool is_last = i + 1 == all.size();
+    if (!is_last && all[i + 1].seconds <= std::max(told_s * step, all[i].seconds)) continue;
+    told_s = all[i].seconds;
+    tell(told_s);
+  }
+  tell(end_s);
+  return curve;
+}
+
+std::vector<PlotSheet> curve_panels(const Comparison& comparison) {
+  std::vector<PlotSheet> panels;
+  for (std::size_t problem = 0; problem < comparison.problems.size(); ++problem) {
+    const std::vector<const Contender*> contenders = contenders_of(comparison, problem);
+    const std::vector<std::string> names = plot_names_of(contenders, true);
+    const CurveTimes times = times_of(contenders);
+    const CostUnit unit = unit_of_costs(contenders);
+    Plot costs = cost_plot(comparison.problems[problem], unit);
+    Plot solved = solved_plot(comparison.problems[problem]);
+    for (std::size_t i = 0; i < contenders.size(); ++i) {
+      CostCurve curve = cost_curve(*contenders[i], times.begin_s, times.end_s);
+      for (Vec2& p : curve.median) p.y /= unit.cost;
+      for (Vec2& span : curve.quartiles) span = {span.x / unit.cost, span.y / unit.cost};
+      costs.series.push_back(
+          {.name = names[i], .points = std::move(curve.median), .steps = true, .spans = std::move(curve.quartiles)});
+      solved.series.push_back({.name = names[i], .points = std::move(curve.solved), .steps = true});
+    }
+    costs.log_y = is_wide(costs);
+    panels.push_back(sheet_of(costs));
+    panels.push_back(sheet_of(solved));
+  }
+  return panels;
 }
 
 std::vector<PlotSheet> comparison_panels(const Comparison& comparison) {

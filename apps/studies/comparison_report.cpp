@@ -15,10 +15,6 @@
 namespace warren::studies {
 namespace {
 
-bool is_sweep(const Comparison& comparison, std::size_t problem) {
-  return comparison.problems[problem].kind == "geometric";
-}
-
 template <class Text>
 std::string if_known(const std::optional<Distribution>& d, const Text& text) {
   return d ? text(*d) : "-";
@@ -49,7 +45,6 @@ TextTable search_table(const Comparison& comparison, std::size_t problem) {
       {"search", "queue", "library", of_lengths(comparison, problem, "length"), "hops", "settled", "trials", "median",
        "95 % for the median", "mean"},
       3,
-      {},
       fmt::format("{}: graph of {}, {} vertices, {} edges", printable(p.source), p.kind, p.vertices, p.edges)};
   const bool with_library =
       std::ranges::any_of(comparison.contenders, [](const Contender& c) { return c.library != "warren"; });
@@ -66,24 +61,12 @@ TextTable search_table(const Comparison& comparison, std::size_t problem) {
   return table;
 }
 
-std::string planner_cell(const Contender& c) {
-  std::string name = contender_name(c, true);
-  const std::string options = options_text(c);
-  return options.empty() ? name : name + ", " + printable(options);
-}
-
-std::string success_text(const Contender& c, const ComparisonRow& row) {
-  if (c.deterministic) return "deterministic";
-  return fmt::format("{:.0f} to {:.0f} %", 100.0 * row.success.low, 100.0 * row.success.high);
-}
-
 TextTable planner_table(const Comparison& comparison, std::size_t problem) {
   constexpr double degree = std::numbers::pi / 180.0;
   const auto of = [&](std::string_view name) { return of_lengths(comparison, problem, name); };
   TextTable table{{"planner", "solved", "95 %", of("length q1"), "median", "q3", of("cost"), "hops", "cells",
                    "turning (deg)", "expanded", of("clearance"), "time q1", "median", "q3"},
-                  1,
-                  {}};
+                  1};
   for (const Contender& c : comparison.contenders) {
     if (c.problem != problem) continue;
     const ComparisonRow row = row_of(c);
@@ -91,7 +74,10 @@ TextTable planner_table(const Comparison& comparison, std::size_t problem) {
       return if_known(row.length, [&](const Distribution& d) { return human_number(d.*figure); });
     };
     const auto seconds = [&](double Distribution::*figure) { return seconds_text(row.time_s, figure); };
-    table.rows.push_back({planner_cell(c), fmt::format("{} of {}", row.solved, row.runs), success_text(c, row),
+    const std::string options = options_text(c);
+    const std::string success = fmt::format("{:.0f} to {:.0f} %", 100.0 * row.success.low, 100.0 * row.success.high);
+    table.rows.push_back({contender_name(c, true) + (options.empty() ? "" : ", " + printable(options)),
+                          fmt::format("{} of {}", row.solved, row.runs), c.deterministic ? "deterministic" : success,
                           number(&Distribution::q1), number(&Distribution::median), number(&Distribution::q3),
                           row.priced_cost ? median_number(row.priced_cost) : "", median_number(row.hops),
                           row.cells ? median_number(row.cells) : "",
@@ -115,7 +101,7 @@ std::string curve_name(const SweepCurve& curve) {
 }
 
 TextTable table_of(const std::vector<SweepCurve>& curves, const std::string& search) {
-  TextTable table{{search + " on"}, 0, {}};
+  TextTable table{{search + " on"}};
   std::set<double> sizes;
   for (const SweepCurve& curve : curves) {
     if (curve.search != search) continue;
@@ -163,7 +149,7 @@ std::vector<TextTable> comparison_tables(const Comparison& comparison) {
     const ComparedProblem& p = comparison.problems[problem];
     if (p.kind.empty()) {
       tables.push_back(planner_table(comparison, problem));
-    } else if (!is_sweep(comparison, problem)) {
+    } else if (p.kind != "geometric") {  // the sweep's have tables of their own
       tables.push_back(search_table(comparison, problem));
     }
   }
@@ -207,7 +193,7 @@ std::vector<TextTable> sweep_tables(const Comparison& comparison) {
   std::vector<std::string> searches;
   for (const SweepCurve& curve : curves) add_once(searches, curve.search);
   for (const std::string& search : searches) tables.push_back(table_of(curves, search));
-  TextTable crossings{{"search", "array", "against", "from which size on the array is slower"}, 4, {}};
+  TextTable crossings{{"search", "array", "against", "from which size on the array is slower"}, 4};
   for (const QueueCrossing& c : queue_crossings(curves)) {
     crossings.rows.push_back({c.search, c.array, c.heap, crossing_text(c)});
   }

@@ -33,10 +33,6 @@ std::vector<TextTable> sweep_tables(const Comparison& comparison);
 /// A line a path that was the best so far in its run, and one without cost for each run that found none.
 std::string comparison_curves(const Comparison& comparison);
 
-/// Of the share of runs that are solved against time, without series yet.
-Plot solved_plot(const ComparedProblem& problem);
-/// Does it get better until it is stopped?
-bool has_curve(const Contender& contender);
 /// What a planner's runs had at moments, ascending, from the first path of all contenders to the end of the longest
 /// run. A run without a path yet costs infinitely much. Most moments where something changed, and all figures at those
 /// are exact.
@@ -47,7 +43,7 @@ struct CostCurve {
 };
 /// 0 < begin_s <= end_s.
 CostCurve cost_curve(const Contender& contender, double begin_s, double end_s);
-/// Of each problem what the runs of each planner cost and how many of them were solved, against time (cost_curves.cpp).
+/// Of each problem what the runs of each planner cost and how many of them were solved, against time.
 std::vector<PlotSheet> curve_panels(const Comparison& comparison);
 
 /// Plots (comparison_plots.cpp): of random graphs times and ratios against size; else what options that were dealt out

@@ -284,8 +284,13 @@ class ContestPictures {
     const std::string title = fmt::format("{}, {}{}seed {}: {}", title_of(scene_), contender.planner,
                                           said.empty() ? ", " : ", " + said + ", ", seed, name_of(answer.outcome));
     write(unused(file_name(contender.planner + " " + said)), title, picture_of(scene_, drawing));
-    add_path(drawing, said.empty() ? contender.planner : contender.planner + ", " + said,
-             run != nullptr ? run->length : 0.0);
+    if (drawing.path.size() > 1) {  // an arm's is in joint space
+      const std::string label = said.empty() ? contender.planner : contender.planner + ", " + said;
+      paths_.paths.push_back({fmt::format("{}: length {}", label, human_number(run != nullptr ? run->length : 0.0)),
+                              without_arcs(drawing.path, drawing.path_turns)});
+      paths_.start = drawing.start;
+      paths_.goal = drawing.goal;
+    }
     for (const DrawingPage& page : drawing.pages) {
       const std::string name = file_name(contender.planner) + "_" + page.id;
       if (!names_.insert(name).second) continue;
@@ -306,14 +311,6 @@ class ContestPictures {
     std::string name = wanted;
     for (int i = 2; !names_.insert(name).second; ++i) name = fmt::format("{}_{}", wanted, i);
     return name;
-  }
-  /// Keeps what the figure of all paths shows; an arm's are in joint space.
-  void add_path(const Drawing& drawing, const std::string& label, double length) {
-    if (drawing.path.size() < 2) return;
-    paths_.paths.push_back(
-        {fmt::format("{}: length {}", label, human_number(length)), without_arcs(drawing.path, drawing.path_turns)});
-    paths_.start = drawing.start;
-    paths_.goal = drawing.goal;
   }
   void keep(std::vector<std::string> notes) { std::move(notes.begin(), notes.end(), std::back_inserter(notes_)); }
   void write(const std::string& name, const std::string& title, Picture picture) {

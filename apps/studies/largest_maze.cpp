@@ -29,7 +29,9 @@ constexpr std::size_t poll_every = std::size_t{1} << 16;
 class CellWalk {
  public:
   CellWalk(MazeCells& cells, const Execution& execution)
-      : bytes_(cells.bytes()), stride_(cells.stride()), execution_(execution) {}
+      : bytes_(cells.bytes()),
+        steps_{1, cells.stride(), std::size_t{0} - 1, std::size_t{0} - cells.stride()},
+        execution_(execution) {}
 
   bool reaches(std::size_t start, std::size_t goal) {
     std::vector<std::size_t> frontier{start};
@@ -51,41 +53,26 @@ class CellWalk {
       if (steps.size() % poll_every == 0) execution_.check();
       const auto came_by = static_cast<Direction>((bytes_[i] >> came_by_shift) & 3);
       push_asked(steps, came_by, execution_);
-      i = beyond(i, static_cast<Direction>(came_by ^ 2));
+      i += steps_[came_by ^ 2];
     }
     std::reverse(steps.begin(), steps.end());
     return steps;
   }
 
  private:
-  bool open(std::size_t i, Direction d) const {
-    switch (d) {
-      case up:
-        return (bytes_[i] & MazeCells::upper_wall) == 0;
-      case right:
-        return (bytes_[i] & MazeCells::right_wall) == 0;
-      case down:
-        return (bytes_[i - 1] & MazeCells::upper_wall) == 0;
-      default:
-        return i > stride_ && (bytes_[i - stride_] & MazeCells::right_wall) == 0;
-    }
-  }
-  std::size_t beyond(std::size_t i, Direction d) const {
-    const std::array<std::size_t, 4> at{i + 1, i + stride_, i - 1, i - stride_};
-    return at[d];
-  }
   void expand(std::size_t i, std::vector<std::size_t>& next) {
     for (const Direction d : {up, right, down, left}) {
-      if (!open(i, d)) continue;
-      const std::size_t to = beyond(i, d);
-      if ((bytes_[to] & reached) != 0) continue;
+      const std::size_t to = i + steps_[d];
+      if (d == left && i <= steps_[right]) continue;  // the first column has nothing there
+      const std::uint8_t wall = d % 2 == 0 ? MazeCells::upper_wall : MazeCells::right_wall;
+      if ((bytes_[d < down ? i : to] & wall) != 0 || (bytes_[to] & reached) != 0) continue;
       bytes_[to] = static_cast<std::uint8_t>(bytes_[to] | reached | (d << came_by_shift));
       next.push_back(to);
     }
   }
 
   std::span<std::uint8_t> bytes_;
-  std::size_t stride_;
+  std::array<std::size_t, 4> steps_;  // from a cell's byte to its neighbours', those back modulo 2^64
   const Execution& execution_;
 };
 
@@ -120,51 +107,43 @@ Spot after(const Spot& spot, const RawVector<Direction>& steps) {
 /// The taut string through the gates. Half-integer coordinates below 2^23 make every turn exact.
 class Funnel {
  public:
-  Funnel(Vec2 start, const Execution& execution) : execution_(execution), path_{start}, left_(start), right_(start) {}
+  Funnel(Vec2 start, const Execution& execution)
+      : execution_(execution), path_{start}, left_{start, {}}, right_{start, {}} {}
 
   Path<Vec2> pull(const RawVector<Direction>& steps, Vec2 goal) {
     std::size_t gates_seen = 0;
     for (Spot at; at.gate <= steps.size(); at = after(at, steps)) {
       if (++gates_seen % poll_every == 0) execution_.check();
       const Gate gate = gate_at(at, steps, goal);
-      if (!narrow_right(gate.right, at) || !narrow_left(gate.left, at)) at = restart_;
+      if (!narrow(right_, left_, 1.0, {gate.right, at}) || !narrow(left_, right_, -1.0, {gate.left, at}))
+        at = left_.spot;
     }
     if (path_.back() != goal) push_asked(path_, goal, execution_);
     return std::move(path_);
   }
 
  private:
-  Vec2 apex() const { return path_.back(); }
-  double turn_to(Vec2 corner, Vec2 p) const { return cross(corner - apex(), p - apex()); }
-  /// False where the string bends round the other side's corner: the walk goes on after that corner's gate.
-  bool narrow_right(Vec2 p, const Spot& at) {
-    if (turn_to(right_, p) < 0.0) return true;
-    if (apex() != right_ && turn_to(left_, p) > 0.0) return bend(left_, left_spot_);
-    right_ = p;
-    right_spot_ = at;
-    return true;
-  }
-  bool narrow_left(Vec2 p, const Spot& at) {
-    if (turn_to(left_, p) > 0.0) return true;
-    if (apex() != left_ && turn_to(right_, p) < 0.0) return bend(right_, right_spot_);
-    left_ = p;
-    left_spot_ = at;
-    return true;
-  }
-  bool bend(Vec2 corner, Spot spot) {
-    push_asked(path_, corner, execution_);
-    left_ = right_ = corner;
-    left_spot_ = right_spot_ = restart_ = spot;
-    return false;
+  /// One side's corner of the string, and whose gate's it is.
+  struct Corner {
+    Vec2 at;
+    Spot spot;
+  };
+  /// False where the string bends round the other side's corner: the walk goes on after that corner's gate. inwards:
+  /// the sign of a turn from this side to the other one.
+  bool narrow(Corner& own, Corner& other, double inwards, const Corner& next) {
+    const Vec2 apex = path_.back();
+    const auto turn_from = [&](Vec2 corner) { return inwards * cross(corner - apex, next.at - apex); };
+    if (turn_from(own.at) < 0.0) return true;
+    const bool bends = apex != own.at && turn_from(other.at) > 0.0;
+    if (bends) push_asked(path_, other.at, execution_);
+    own = bends ? other : next;
+    return !bends;
   }
 
   const Execution& execution_;
   Path<Vec2> path_;
-  Vec2 left_;
-  Vec2 right_;
-  Spot left_spot_;
-  Spot right_spot_;
-  Spot restart_;
+  Corner left_;
+  Corner right_;
 };
 
 std::uint32_t extent(double cells) {
@@ -178,12 +157,16 @@ class LargestSearch {
                 const std::function<void(std::string_view)>& note)
       : options_(options), execution_(execution), note_(note) {}
 
-  void search() {
-    probe();
-    const std::uint32_t side = largest_side(options_.sizes, [&](std::uint32_t n) { return fits(n); });
-    if (side > 0) confirm(side);
+  LargestResult search() {
+    try {
+      probe();
+      const std::uint32_t side = largest_side(options_.sizes, [&](std::uint32_t n) { return fits(n); });
+      if (side > 0) confirm(side);
+    } catch (const Stopped& stopped) {
+      result_.signal = stopped.reason;
+    }
+    return std::move(result_);
   }
-  LargestResult& result() { return result_; }
 
  private:
   /// The shape keeps the number of cells: rows * cols is about side * side.
@@ -270,10 +253,8 @@ class LargestSearch {
     const auto begin = std::chrono::steady_clock::now();
     memory_holds([&] {  // or there is no bar
       const Path<Vec2> path = bfs_funnel(scene, execution_);
-      HonestBar bar;
-      bar.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-      bar.length = path_length(path, [](Vec2 a, Vec2 b) { return distance(a, b); });
-      result_.bar = bar;
+      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+      result_.bar = HonestBar{seconds, path_length(path, [](Vec2 a, Vec2 b) { return distance(a, b); })};
     });
   }
   void say(const MazeTrial& t) const {
@@ -294,10 +275,6 @@ class LargestSearch {
 std::uint32_t doubled(std::uint32_t side, std::uint32_t most) {
   const double next = std::ceil(side * std::numbers::sqrt2);
   return next < most ? static_cast<std::uint32_t>(next) : most;
-}
-
-std::uint32_t halved(std::uint32_t side, std::uint32_t least) {
-  return std::max(least, static_cast<std::uint32_t>(side / std::numbers::sqrt2));
 }
 
 using Json = nlohmann::ordered_json;
@@ -332,16 +309,15 @@ std::string headline(const LargestOptions& options, const LargestResult& result,
                      human_seconds(options.budget_s));
 }
 
-std::string loops_text(double loops) {
-  return loops > 0.0 ? human_number(loops) + " of the remaining walls taken out" : "perfect";
-}
-
-void add_size(std::string& text, const LargestOptions& options, const LargestResult& result, const Palette& palette) {
+/// Of the largest size: what was solved, how fast, with how much memory; and the bar. There is one.
+void add_best(std::string& text, const LargestOptions& options, const LargestResult& result, const Palette& palette) {
   const MazeTrial& median = median_trial(result);
   const auto [fastest, slowest] = std::minmax_element(result.best.begin(), result.best.end(), by_seconds);
+  const double loops = options.maze.loops;
   line(text, palette, "size",
        fmt::format("{} cells, {} mazes, {}", grouped(static_cast<std::uint64_t>(median.cells())),
-                   name_of(options.maze.algorithm), loops_text(options.maze.loops)));
+                   name_of(options.maze.algorithm),
+                   loops > 0.0 ? human_number(loops) + " of the remaining walls taken out" : "perfect"));
   line(text, palette, "planner",
        fmt::format("{}, clearance {}, {} {}", planner_text(median), human_number(median.clearance), median.threads,
                    median.threads == 1 ? "thread" : "threads"));
@@ -352,37 +328,26 @@ void add_size(std::string& text, const LargestOptions& options, const LargestRes
   line(text, palette, "rate",
        fmt::format("{} cells a second, {:.1f} ns a cell", human_count(median.cells() / median.solve_s),
                    median.solve_s * 1e9 / median.cells()));
-}
-
-void add_stages(std::string& text, const LargestResult& result, const Palette& palette) {
-  const MazeTrial& median = median_trial(result);
   for (const auto& [name, seconds] : named_stages(median.seconds)) {
     if (seconds == 0.0) continue;  // no stage of this planner: tiles do several in one
     line(text, palette, fmt::format("  {}", name),
          fmt::format("{:>9}  {:>5.1f} %  {:>7.2f} ns a cell", human_seconds(seconds), 100.0 * seconds / median.solve_s,
                      seconds * 1e9 / median.cells()));
   }
-}
-
-void add_memory(std::string& text, const LargestResult& result, const Palette& palette) {
-  const MazeTrial& median = median_trial(result);
   const auto bytes = static_cast<double>(median.peak_memory_bytes);
   line(text, palette, "memory",
        fmt::format("{} at the peak, walls included: {:.1f} B a cell", human_bytes(bytes), bytes / median.cells()));
-  const MemoryTouch& touch = result.touch;
-  if (touch.bytes == 0) return;
-  line(text, palette, "first touch",
-       fmt::format("{} took {} cold and {} warm, before the clock: a cold start adds {}",
-                   human_bytes(static_cast<double>(touch.bytes)), human_seconds(touch.cold_s),
-                   human_seconds(touch.warm_s), human_seconds(touch.cold_s - touch.warm_s)));
-}
-
-void add_bar(std::string& text, const LargestOptions& options, const LargestResult& result, const Palette& palette) {
-  if (!result.bar || result.best.empty()) return;
+  if (const MemoryTouch& touch = result.touch; touch.bytes > 0) {
+    line(text, palette, "first touch",
+         fmt::format("{} took {} cold and {} warm, before the clock: a cold start adds {}",
+                     human_bytes(static_cast<double>(touch.bytes)), human_seconds(touch.cold_s),
+                     human_seconds(touch.warm_s), human_seconds(touch.cold_s - touch.warm_s)));
+  }
+  if (!result.bar) return;
   const MazeTrial& same = result.best.back();  // the bar's own maze
   line(text, palette, "BFS + funnel",
        fmt::format("{} from the same walls to {} path, touching allowed: {:.1f} times as fast, {:.1f} % shorter",
-                   human_seconds(result.bar->seconds), options.maze.loops > 0.0 ? "a taut" : "the shortest",
+                   human_seconds(result.bar->seconds), loops > 0.0 ? "a taut" : "the shortest",
                    same.solve_s / result.bar->seconds, 100.0 * (1.0 - result.bar->length / same.length)));
 }
 
@@ -406,12 +371,11 @@ void add_limit(std::string& text, const LargestOptions& options, const LargestRe
   }
 }
 
-Json best_json(const LargestResult& result) {
-  Json json = Json::object();
+void add_best(Json& json, const LargestResult& result) {
   if (result.best.empty()) {
     for (const char* key : {"rows", "cols", "cells", "solve_s"}) json[key] = nullptr;
     json["verified"] = false;
-    return json;
+    return;
   }
   const MazeTrial& median = median_trial(result);
   json["rows"] = median.rows;
@@ -419,7 +383,6 @@ Json best_json(const LargestResult& result) {
   json["cells"] = static_cast<std::uint64_t>(median.cells());
   json["solve_s"] = median.solve_s;
   json["verified"] = std::all_of(result.best.begin(), result.best.end(), [](const auto& t) { return t.verified; });
-  return json;
 }
 
 /// The maze's seeds at the largest size, spread of their times, rate, memory a cell.
@@ -450,13 +413,7 @@ Path<Vec2> bfs_funnel(const Scene& scene, const Execution& execution) {
 
 LargestResult find_largest(const LargestOptions& options, const Execution& execution,
                            const std::function<void(std::string_view)>& note) {
-  LargestSearch search(options, execution, note);
-  try {
-    search.search();
-  } catch (const Stopped& stopped) {
-    search.result().signal = stopped.reason;
-  }
-  return std::move(search.result());
+  return LargestSearch(options, execution, note).search();
 }
 
 std::uint32_t largest_side(const SizeSearch& search, const std::function<bool(std::uint32_t)>& fits) {
@@ -467,7 +424,9 @@ std::uint32_t largest_side(const SizeSearch& search, const std::function<bool(st
   if (fitting > 0) {
     while (fitting < search.most && too_large == 0) ask(doubled(fitting, search.most));
   } else {
-    while (too_large > search.least && fitting == 0) ask(halved(too_large, search.least));
+    while (too_large > search.least && fitting == 0) {
+      ask(std::max(search.least, static_cast<std::uint32_t>(too_large / std::numbers::sqrt2)));
+    }
   }
   if (fitting == 0 || too_large == 0) return fitting;
   while (too_large - fitting > std::max(1.0, search.step * fitting)) ask(fitting + (too_large - fitting) / 2);
@@ -481,12 +440,7 @@ std::uint32_t side_below(const SizeSearch& search, std::uint32_t side) {
 
 std::string largest_summary(const LargestOptions& options, const LargestResult& result, const Palette& palette) {
   std::string text = headline(options, result, palette);
-  if (!result.best.empty()) {
-    add_size(text, options, result, palette);
-    add_stages(text, result, palette);
-    add_memory(text, result, palette);
-    add_bar(text, options, result, palette);
-  }
+  if (!result.best.empty()) add_best(text, options, result, palette);
   add_limit(text, options, result, palette);
   line(text, palette, "machine", text_of(this_machine()));
   return text;
@@ -494,7 +448,7 @@ std::string largest_summary(const LargestOptions& options, const LargestResult& 
 
 std::string largest_json(const LargestOptions& options, const LargestResult& result) {
   Json json{{"schema", "warren.largest/1"}, {"warren_version", WARREN_VERSION}, {"budget_s", options.budget_s}};
-  json.update(best_json(result));
+  add_best(json, result);
   const MazeTrial* shown =
       !result.best.empty() ? &median_trial(result) : (result.trials.empty() ? nullptr : &result.trials.back());
   for (const char* key : {"planner", "sampler", "threads", "peak_memory_bytes"}) {
@@ -519,9 +473,9 @@ std::string largest_json(const LargestOptions& options, const LargestResult& res
 }
 
 PlotSheet largest_plot(const LargestOptions& options, const LargestResult& result) {
-  PlotSeries tried{.name = "solved, fastest of a size", .points = {}};
-  PlotSeries cut{.name = "cut or unsolved", .points = {}, .joined = false};
-  PlotSeries largest{.name = "largest size, a seed each", .points = {}, .joined = false};
+  PlotSeries tried{.name = "solved, fastest of a size"};
+  PlotSeries cut{.name = "cut or unsolved", .joined = false};
+  PlotSeries largest{.name = "largest size, a seed each", .joined = false};
   for (const MazeTrial& t : result.trials) (t.verified ? tried : cut).points.push_back({t.cells(), t.solve_s});
   for (const MazeTrial& t : result.best) largest.points.push_back({t.cells(), t.solve_s});
   std::sort(tried.points.begin(), tried.points.end(),
@@ -533,7 +487,6 @@ PlotSheet largest_plot(const LargestOptions& options, const LargestResult& resul
             .y_label = "seconds, from walls in memory to path verified",
             .log_x = true,
             .log_y = true,
-            .series = {},
             .level = options.budget_s,
             .level_name = fmt::format("budget {}", human_seconds(options.budget_s))};
   if (!result.best.empty()) {

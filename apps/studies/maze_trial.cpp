@@ -5,7 +5,7 @@
 
 #include "apps/studies/machine.hpp"
 #include "core/run/trace.hpp"
-#include "solve/answer/stage_lines.hpp"
+#include "solve/answer/explanation_text.hpp"
 #include "solve/question/planner_choice.hpp"
 #include "solve/streamed/solve_streamed.hpp"
 

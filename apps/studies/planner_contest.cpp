@@ -35,12 +35,6 @@ std::optional<std::uint64_t> cells_of(const Answer& answer, const Scene& scene,
   return cells_passed(answer.path, Raster{box.min, grid_spec(raster.value_or(GridFields{}), scene).cell});
 }
 
-/// A number as it is, a word as text.
-std::string word_json(const std::string& word) {
-  const std::optional<double> number = number_in_word(word);
-  return number ? fmt::format("{}", *number) : json_string(word);
-}
-
 /// Trees settle no vertices in a search; they grow them.
 std::uint64_t expanded_by(const Answer& answer) {
   const bool grows = answer.planner == name_of(PlannerKind::rrt) || answer.planner == name_of(PlannerKind::rrt_connect);
@@ -82,7 +76,9 @@ class PlannerContest {
     double seconds = 0.0;
     const StageTimer timer(execution_, "compare", seconds, options_.runs * options_.contenders.size());
     take(turns_of(0));
-    if (execution_.progress != nullptr) execution_.progress->set_total(turns_in_all());
+    if (execution_.progress != nullptr) {  // the first has told who needs others
+      execution_.progress->set_total(options_.contenders.size() + (options_.runs - 1) * turns_of(1).size());
+    }
     std::vector<Turn> turns;
     for (std::uint64_t round = 1; round < options_.runs; ++round) {
       const std::vector<Turn> more = turns_of(round);
@@ -114,14 +110,6 @@ class PlannerContest {
       contender.library = "warren";
       comparison_.contenders.push_back(std::move(contender));
     }
-  }
-  /// Of all rounds together, when the first has told who needs others.
-  std::uint64_t turns_in_all() const {
-    std::uint64_t count = options_.contenders.size();
-    for (std::size_t i = 0; i < options_.contenders.size(); ++i) {
-      if (options_.repeat_all || !contender(i).deterministic) count += options_.runs - 1;
-    }
-    return count;
   }
   std::vector<Turn> turns_of(std::uint64_t round) const {
     std::vector<Turn> all;
@@ -194,13 +182,13 @@ class PlannerContest {
     for (const auto& [name, word] : asked.dealt) {
       const bool has_column = name == name_of(Option::search) || name == name_of(Option::queue);
       const auto is_it = [&, &name = name](const auto& option) { return option.first == name; };
-      if (!has_column && std::none_of(options.begin(), options.end(), is_it))
-        options.emplace_back(name, word_json(word));
+      if (has_column || std::any_of(options.begin(), options.end(), is_it)) continue;
+      const std::optional<double> number = number_in_word(word);
+      options.emplace_back(name, number ? fmt::format("{}", *number) : json_string(word));
     }
     std::erase_if(options, [](const auto& option) { return option.first == "queue"; });  // has a column
   }
-  Contender& contender(std::size_t i) { return comparison_.contenders[first_contender_ + i]; }
-  const Contender& contender(std::size_t i) const { return comparison_.contenders[first_contender_ + i]; }
+  Contender& contender(std::size_t i) const { return comparison_.contenders[first_contender_ + i]; }
 
   const Scene& scene_;
   const PlannerContestOptions& options_;

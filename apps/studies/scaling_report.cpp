@@ -37,15 +37,6 @@ Json gain_json(const ThreadGain& gain) {
 
 std::string side_text(const MazeTrial& t) { return fmt::format("{} x {}", t.rows, t.cols); }
 
-std::string table_line(const ScalingRow& row) {
-  const MazeTrial& t = row.fastest;
-  const auto bytes = static_cast<double>(row.peak_memory_bytes);
-  return fmt::format("{:>15}  {:<30} {:>7}  {:>9}  {:>9}  {:>5.1f} %  {:>8.1f}  {:>8.2f}  {:>9}  {:>8.1f}\n",
-                     side_text(t), planner_text(t), t.threads, human_seconds(t.solve_s), human_seconds(row.median_s),
-                     100.0 * row.spread, t.solve_s * 1e9 / t.cells(), row.speed_up, human_bytes(bytes),
-                     bytes / t.cells());
-}
-
 std::string unsolved_text(const ScalingResult& result) {
   std::string text;
   std::set<std::string> said;
@@ -65,8 +56,6 @@ std::string unsolved_text(const ScalingResult& result) {
 using Way = std::pair<std::string, std::string>;
 Way way_of(const ScalingRow& row) { return {row.fastest.planner, row.fastest.sampler}; }
 std::string text_of(const Way& way) { return way.first + " " + way.second; }
-/// The words before a series' own name: the way, where there is more than one.
-std::string prefix_of(const Way& way, const std::set<Way>& ways) { return ways.size() > 1 ? text_of(way) + ", " : ""; }
 std::string threads_text(unsigned threads) { return fmt::format("{} thread{}", threads, threads == 1 ? "" : "s"); }
 
 std::set<Way> ways_of(std::span<const ScalingRow> rows) {
@@ -107,13 +96,12 @@ Plot stage_plot(std::span<const ScalingRow> rows, const Way& way, const std::vec
             .x_label = "cells",
             .y_label = "seconds (least of the repeats)",
             .log_x = true,
-            .log_y = true,
-            .series = {}};
+            .log_y = true};
   const auto fitted = stage_exponents(wide);
   const std::map<std::string, double> exponents(fitted.begin(), fitted.end());
   for (std::size_t i = 0; i < stages.size(); ++i) {
     const std::string& stage = stages[i];
-    PlotSeries series{.name = stage, .points = {}, .color = i};
+    PlotSeries series{.name = stage, .color = i};
     for (const ScalingRow& row : wide) {
       const double seconds = seconds_of(row.fastest, stage);
       if (seconds >= least_shown_s) series.points.push_back({row.fastest.cells(), seconds});
@@ -130,14 +118,15 @@ enum class Against : std::uint8_t { cells, threads };
 template <class Figure>
 std::vector<PlotSeries> series_by_way(std::span<const ScalingRow> rows, Against what, const Figure& figure) {
   const bool over_threads = what == Against::threads;
-  const std::set<Way> ways = ways_of(rows);
+  const bool several_ways = ways_of(rows).size() > 1;
   std::map<std::tuple<Way, double, std::uint32_t>, PlotSeries> by_way;
   for (const ScalingRow& row : rows) {
     const MazeTrial& t = row.fastest;
     const double threads = t.threads;
     PlotSeries& series = by_way[over_threads ? std::tuple(way_of(row), t.cells(), t.rows)  // sorted by it
                                              : std::tuple(way_of(row), threads, 0U)];
-    series.name = prefix_of(way_of(row), ways) + (over_threads ? side_text(t) : threads_text(t.threads));
+    series.name =
+        (several_ways ? text_of(way_of(row)) + ", " : "") + (over_threads ? side_text(t) : threads_text(t.threads));
     series.points.push_back({over_threads ? threads : t.cells(), figure(row)});
   }
   std::vector<PlotSeries> all;
@@ -155,7 +144,7 @@ std::vector<Plot> thread_plots(std::span<const ScalingRow> rows) {
                 .from_zero = true,
                 .whole_x = true,
                 .series = series_by_way(rows, Against::threads, [](const auto& row) { return row.speed_up; })};
-  PlotSeries ideal{.name = "ideal", .points = {}, .dashed = true};
+  PlotSeries ideal{.name = "ideal", .dashed = true};
   for (const unsigned n : threads) ideal.points.push_back({static_cast<double>(n), static_cast<double>(n)});
   speed_up.series.push_back(std::move(ideal));
   Plot efficiency{.title = "Efficiency",
@@ -215,7 +204,6 @@ TextTable table_of(std::span<const ScalingRow> rows) {
   TextTable table{{"planner", "size", "threads", "runs", "minimum", "median", "spread", "ns a cell", "speed-up",
                    "efficiency", "memory", "bytes a cell"},
                   1,
-                  {},
                   "Runs"};
   for (const ScalingRow& row : rows) {
     const MazeTrial& t = row.fastest;
@@ -234,7 +222,6 @@ TextTable table_of(std::span<const ScalingRow> rows) {
 TextTable gains_of(const ScalingResult& result) {
   TextTable table{{"planner", "size", "threads", "pairs", "gain", "arithmetic", "quiet pairs", "quiet gain"},
                   1,
-                  {},
                   "What threads gain, and what arithmetic alone gained in the same moments"};
   for (const ThreadGain& gain : thread_gains(result, this_machine().cores)) {
     table.rows.push_back({planner_text(gain.first), side_text(gain.first), std::to_string(gain.first.threads),
@@ -248,7 +235,7 @@ TextTable gains_of(const ScalingResult& result) {
 /// What the fastest run of each row cost beside its time.
 TextTable counts_of(const ScalingResult& result, std::span<const ScalingRow> rows) {
   TextTable table{
-      {"planner", "size", "threads", "CPU", "page faults", "switched away"}, 1, {}, "Counts of the fastest runs"};
+      {"planner", "size", "threads", "CPU", "page faults", "switched away"}, 1, "Counts of the fastest runs"};
   const bool counted = result.no_hardware_counts.empty();
   if (counted) {
     for (const char* head :
@@ -271,7 +258,7 @@ TextTable exponent_table(std::span<const ScalingRow> rows) {
   const auto name_of_row = [](const ScalingRow& row) {
     return fmt::format("{}, {}", planner_text(row.fastest), counted(row.fastest.threads, "thread", "threads"));
   };
-  TextTable table{{"contender"}, 1, {}, "Exponents of time against cells"};
+  TextTable table{{"contender"}, 1, "Exponents of time against cells"};
   const std::vector<std::string> stages = all_stages();
   table.head.insert(table.head.end(), stages.begin(), stages.end());
   for (const std::vector<ScalingRow>& own : in_groups(rows, name_of_row)) {
@@ -306,7 +293,14 @@ std::string scaling_summary(const ScalingResult& result, const Palette& palette)
                                                 "size", "planner", "threads", "minimum", "median", "spread", "ns/cell",
                                                 "speed-up", "memory", "B/cell"));
   text += '\n';
-  for (const ScalingRow& row : rows) text += table_line(row);
+  for (const ScalingRow& row : rows) {
+    const MazeTrial& t = row.fastest;
+    const auto bytes = static_cast<double>(row.peak_memory_bytes);
+    text += fmt::format("{:>15}  {:<30} {:>7}  {:>9}  {:>9}  {:>5.1f} %  {:>8.1f}  {:>8.2f}  {:>9}  {:>8.1f}\n",
+                        side_text(t), planner_text(t), t.threads, human_seconds(t.solve_s), human_seconds(row.median_s),
+                        100.0 * row.spread, t.solve_s * 1e9 / t.cells(), row.speed_up, human_bytes(bytes),
+                        bytes / t.cells());
+  }
   text += unsolved_text(result);
   const auto line = [&](std::string_view name, const std::string& what) {
     text += fmt::format("{}{}\n", palette.faint(fmt::format("{:<11}", name)), what);

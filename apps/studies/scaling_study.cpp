@@ -22,12 +22,16 @@ class ScalingStudy {
     result_.no_hardware_counts = counters_.refusal();
   }
 
-  void run_all() {
-    for (const auto& [rows, cols] : options_.sizes) {
-      for (const std::uint64_t seed : options_.seeds) run_maze(rows, cols, seed);
+  ScalingResult run_all() {
+    try {
+      for (const auto& [rows, cols] : options_.sizes) {
+        for (const std::uint64_t seed : options_.seeds) run_maze(rows, cols, seed);
+      }
+    } catch (const Stopped& stopped) {
+      result_.signal = stopped.reason;
     }
+    return std::move(result_);
   }
-  ScalingResult& result() { return result_; }
 
  private:
   void run_maze(std::uint32_t rows, std::uint32_t cols, std::uint64_t seed) {
@@ -84,36 +88,32 @@ class ScalingStudy {
   ScalingResult result_;
 };
 
-/// Each stage's least.
-void take_least(StageTimes& least, const StageTimes& other) {
+/// Each stage's least, and each link's.
+void take_least(MazeTrial& least, const MazeTrial& other) {
   for (double StageTimes::*stage :
        {&StageTimes::index, &StageTimes::sample, &StageTimes::neighbours, &StageTimes::connect, &StageTimes::graph,
         &StageTimes::reduce, &StageTimes::search, &StageTimes::optimise, &StageTimes::verify}) {
-    least.*stage = std::min(least.*stage, other.*stage);
+    least.seconds.*stage = std::min(least.seconds.*stage, other.seconds.*stage);
   }
-}
-
-/// Each link's.
-void take_least(std::vector<StageCost>& least, const std::vector<StageCost>& other) {
-  for (StageCost& cost : least) {
-    for (const StageCost& o : other) {
+  for (StageCost& cost : least.costs) {
+    for (const StageCost& o : other.costs) {
       if (std::string_view(o.name) == cost.name) cost.wall_s = std::min(cost.wall_s, o.wall_s);
     }
   }
 }
 
 ScalingRow row_of(const std::vector<const ScalingRun*>& runs) {
-  ScalingRow row;
-  row.runs = runs.size();
+  const ScalingRun& fastest = **std::min_element(
+      runs.begin(), runs.end(), [](const auto* a, const auto* b) { return a->trial.solve_s < b->trial.solve_s; });
+  ScalingRow row{.fastest = fastest.trial, .runs = runs.size(), .counts = fastest.counts};
+  row.fastest.seconds = runs.front()->trial.seconds;
+  row.fastest.costs = runs.front()->trial.costs;
   std::vector<double> seconds;
   std::map<std::uint64_t, std::pair<double, double>> extremes;  // by seed
-  StageTimes least = runs.front()->trial.seconds;
-  std::vector<StageCost> least_costs = runs.front()->trial.costs;
   for (const ScalingRun* run : runs) {
     const MazeTrial* t = &run->trial;
     seconds.push_back(t->solve_s);
-    take_least(least, t->seconds);
-    take_least(least_costs, t->costs);
+    take_least(row.fastest, *t);
     row.peak_memory_bytes = std::max(row.peak_memory_bytes, t->peak_memory_bytes);
     auto& [low, high] = extremes.try_emplace(t->seed, t->solve_s, t->solve_s).first->second;
     low = std::min(low, t->solve_s);
@@ -121,12 +121,6 @@ ScalingRow row_of(const std::vector<const ScalingRun*>& runs) {
   }
   for (const auto& [seed, extreme] : extremes) row.spread = std::max(row.spread, extreme.second / extreme.first - 1.0);
   row.median_s = median_of(seconds);
-  const ScalingRun& fastest = **std::min_element(
-      runs.begin(), runs.end(), [](const auto* a, const auto* b) { return a->trial.solve_s < b->trial.solve_s; });
-  row.fastest = fastest.trial;
-  row.fastest.seconds = least;
-  row.fastest.costs = std::move(least_costs);
-  row.counts = fastest.counts;
   return row;
 }
 
@@ -202,13 +196,7 @@ ThreadGain gain_of(const std::vector<Pair>& pairs, unsigned cores) {
 
 ScalingResult run_scaling_study(const ScalingOptions& options, const Execution& execution,
                                 const std::function<void(std::string_view)>& note) {
-  ScalingStudy study(options, execution, note);
-  try {
-    study.run_all();
-  } catch (const Stopped& stopped) {
-    study.result().signal = stopped.reason;
-  }
-  return std::move(study.result());
+  return ScalingStudy(options, execution, note).run_all();
 }
 
 std::vector<ScalingRow> scaling_rows(const ScalingResult& result) {

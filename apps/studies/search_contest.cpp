@@ -20,10 +20,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double seconds_each = 0.25;  // when nobody says how many trials
-constexpr std::uint64_t fewest_trials = 5;
-constexpr std::uint64_t most_trials = 10'000;
-
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
 std::string text_of(const SearchVariant& v) {
@@ -31,11 +27,6 @@ std::string text_of(const SearchVariant& v) {
   if (v.queue) text.append(" with ").append(name_of(*v.queue));
   if (v.library != SearchLibrary::warren) text.append(" of ").append(name_of(v.library));
   return text;
-}
-
-Outcome outcome_of(SearchStatus status) {
-  if (status == SearchStatus::found) return Outcome::solved;
-  return status == SearchStatus::stopped ? Outcome::stopped : Outcome::not_connected;
 }
 
 /// One variant at work.
@@ -55,14 +46,13 @@ class SearchContest {
   void run() {
     enter();
     check_all();
-    const double clock_before = comparison_.clock_s;
     try {
       measure();
     } catch (const Stopped&) {
-      take_clock_off(clock_before);
+      take_clock_off();
       throw;
     }
-    take_clock_off(clock_before);
+    take_clock_off();
   }
 
  private:
@@ -111,8 +101,10 @@ class SearchContest {
     SearchResult result = entrant.search(within);
     const double seconds = seconds_since(begin);
     if (result.status == SearchStatus::stopped) execution_.check();
-    ComparedRun run{.outcome = outcome_of(result.status), .time_s = seconds, .expanded = result.expanded};
-    if (seconds > options_.budget_s) run.outcome = Outcome::stopped;
+    const bool is_found = result.status == SearchStatus::found;
+    ComparedRun run{
+        .outcome = is_found ? Outcome::solved : Outcome::not_connected, .time_s = seconds, .expanded = result.expanded};
+    if (result.status == SearchStatus::stopped || seconds > options_.budget_s) run.outcome = Outcome::stopped;
     if (run.solved()) {
       run.length = path_length(graph_, result.path);
       run.hops = result.path.size() - 1;
@@ -120,6 +112,9 @@ class SearchContest {
     return run;
   }
   std::uint64_t trials_for(const ComparedRun& first) const {
+    constexpr double seconds_each = 0.25;  // when nobody says how many trials
+    constexpr std::uint64_t fewest_trials = 5;
+    constexpr std::uint64_t most_trials = 10'000;
     if (options_.trials) return *options_.trials;
     const double fitting = std::ceil(seconds_each / std::max(first.time_s, 1e-9));
     return std::clamp(static_cast<std::uint64_t>(std::min(fitting, 1e9)), fewest_trials, most_trials);
@@ -152,10 +147,10 @@ class SearchContest {
     const auto begin = Clock::now();
     clock_s_.push_back(seconds_since(begin));
   }
-  void take_clock_off(double clock_before) {
+  void take_clock_off() {
     if (clock_s_.empty()) return;
     const double clock = median_of(clock_s_);
-    comparison_.clock_s = std::max(clock_before, clock);
+    comparison_.clock_s = std::max(comparison_.clock_s, clock);
     for (std::size_t i = 0; i < entrants_.size(); ++i) {
       for (ComparedRun& run : contender(i).runs) run.time_s = std::max(0.0, run.time_s - clock);
     }
@@ -197,45 +192,18 @@ std::optional<std::string> contradiction_between(const SearchClaim& a, const Sea
   return std::nullopt;
 }
 
-constexpr double longest_search_s = 2.0;
-
 /// Drops the variants of which one of the contenders from `first` on took too long in the median.
 void drop_slow_variants(std::vector<SearchVariant>& variants, std::size_t first, std::uint32_t size,
                         Comparison& comparison) {
+  constexpr double longest_search_s = 2.0;
   for (std::size_t i = variants.size(); i-- > 0;) {
     const Contender& contender = comparison.contenders[first + i];
     const ComparisonRow row = row_of(contender);
     if (!row.time_s || row.time_s->median <= longest_search_s) continue;
-    const std::string note = fmt::format("{}: left out beyond {} vertices, where a search takes {:.1f} s",
-                                         contender_name(contender, false), size, row.time_s->median);
-    comparison.notes.push_back(note);
+    comparison.notes.push_back(fmt::format("{}: left out beyond {} vertices, where a search takes {:.1f} s",
+                                           contender_name(contender, false), size, row.time_s->median));
     variants.erase(variants.begin() + static_cast<std::ptrdiff_t>(i));
   }
-}
-
-/// The roadmap that the planner leaves.
-WorldGraph roadmap_graph(SolveRequest request, const ChosenSolver& solver) {
-  ByProducts made_too;
-  request.keep = &made_too;
-  const Answer answer = solver.kind->solve(request);
-  if (answer.outcome == Outcome::stopped) throw Stopped{answer.stop_reason.value_or(StopReason::time)};
-  WorldGraph made;
-  made.outcome = answer.outcome;
-  const bool has_trees = !made_too.trees.empty();
-  const PlannedRoadmap<Vec2> roadmap =
-      has_trees ? in_the_plane(made_too.trees, request.execution) : std::move(made_too.roadmap);
-  if (roadmap.states.empty()) {
-    if (answer.outcome != Outcome::solved) return made;
-    throw UsageError(fmt::format("@graph: {} leaves no graph to search", name_of(solver.planner)));
-  }
-  made.graph.options = json_options(answer.options);
-  std::erase_if(made.graph.options, [](const auto& option) { return option.first == "pipeline"; });
-  made.graph.at.assign(roadmap.states.begin(), roadmap.states.end());
-  const auto length = [&](VertexId v, VertexId w) { return distance(made.graph.at[v], made.graph.at[w]); };
-  made.graph.graph = with_lengths(roadmap.graph, Execution(), length);
-  made.graph.start = static_cast<VertexId>(made.graph.at.size() - 2);
-  made.graph.goal = static_cast<VertexId>(made.graph.at.size() - 1);
-  return made;
 }
 
 }  // namespace
@@ -285,10 +253,28 @@ WorldGraph world_graph(const Scene& scene, const Question& question, const Solve
                     scene.source, name_of(robot)));
   }
   const ChosenSolver solver = choose_solver(options, scene, question);
-  WorldGraph made = roadmap_graph({options, scene, question, solver.planner, execution}, solver);
-  made.graph.source = scene.source;
-  made.graph.kind = name_of(solver.planner);
-  made.graph.unit = unit_of(scene);
+  ByProducts made_too;
+  const Answer answer = solver.kind->solve({options, scene, question, solver.planner, execution, &made_too});
+  if (answer.outcome == Outcome::stopped) throw Stopped{answer.stop_reason.value_or(StopReason::time)};
+  WorldGraph made{{}, answer.outcome};
+  SearchGraph& graph = made.graph;
+  graph.source = scene.source;
+  graph.kind = name_of(solver.planner);
+  graph.unit = unit_of(scene);
+  const bool has_trees = !made_too.trees.empty();
+  const PlannedRoadmap<Vec2> roadmap =
+      has_trees ? in_the_plane(made_too.trees, execution) : std::move(made_too.roadmap);
+  if (roadmap.states.empty()) {
+    if (answer.outcome != Outcome::solved) return made;
+    throw UsageError(fmt::format("@graph: {} leaves no graph to search", graph.kind));
+  }
+  graph.options = json_options(answer.options);
+  std::erase_if(graph.options, [](const auto& option) { return option.first == "pipeline"; });
+  graph.at.assign(roadmap.states.begin(), roadmap.states.end());
+  const auto length = [&](VertexId v, VertexId w) { return distance(graph.at[v], graph.at[w]); };
+  graph.graph = with_lengths(roadmap.graph, Execution(), length);
+  graph.start = static_cast<VertexId>(graph.at.size() - 2);
+  graph.goal = static_cast<VertexId>(graph.at.size() - 1);
   return made;
 }
 

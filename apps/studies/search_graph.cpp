@@ -98,29 +98,9 @@ GraphSearch best_first_on(const SearchGraph& from) {
   };
 }
 
-/// Breadth-first or depth-first.
-GraphSearch queueless_search(const SearchGraph& graph, bool is_deep) {
-  SearchState fresh;
-  fresh.resize(graph.graph.vertex_count());
-  return [&graph, is_deep, state = std::move(fresh)](const Execution& execution) mutable {
-    state.clear();
-    const auto stop = [&] { return execution.should_stop(); };
-    return is_deep ? depth_first(graph.graph, graph.start, graph.goal, state, stop)
-                   : breadth_first(graph.graph, graph.start, graph.goal, state, stop);
-  };
-}
-
 template <class Queue>
 GraphSearch best_first_with(const SearchGraph& graph, SearchKind search) {
   return search == SearchKind::astar ? best_first_on<Queue, true>(graph) : best_first_on<Queue, false>(graph);
-}
-
-GraphSearch best_first_search(const SearchGraph& graph, SearchKind search, QueuePolicy queue) {
-  if (queue == QueuePolicy::lazy_heap) return best_first_with<LazyHeap>(graph, search);
-  if (queue == QueuePolicy::sorted_array) return best_first_with<SortedArray>(graph, search);
-  if (queue == QueuePolicy::resorted_array) return best_first_with<ResortedArray>(graph, search);
-  if (queue == QueuePolicy::linear_scan) return best_first_with<LinearScan>(graph, search);
-  return best_first_with<IndexedHeap<4>>(graph, search);
 }
 
 }  // namespace
@@ -149,8 +129,23 @@ SearchGraph geometric_graph(std::uint32_t size, double degree, std::uint64_t see
 
 GraphSearch graph_search(const SearchGraph& graph, const SearchVariant& variant) {
   if (variant.library == SearchLibrary::boost) return boost_search(graph, variant.search);
-  if (!has_queue(variant.search)) return queueless_search(graph, variant.search == SearchKind::dfs);
-  return best_first_search(graph, variant.search, variant.queue.value_or(QueuePolicy::heap));
+  if (!has_queue(variant.search)) {
+    SearchState fresh;
+    fresh.resize(graph.graph.vertex_count());
+    const bool is_deep = variant.search == SearchKind::dfs;
+    return [&graph, is_deep, state = std::move(fresh)](const Execution& execution) mutable {
+      state.clear();
+      const auto stop = [&] { return execution.should_stop(); };
+      return is_deep ? depth_first(graph.graph, graph.start, graph.goal, state, stop)
+                     : breadth_first(graph.graph, graph.start, graph.goal, state, stop);
+    };
+  }
+  const QueuePolicy queue = variant.queue.value_or(QueuePolicy::heap);
+  if (queue == QueuePolicy::lazy_heap) return best_first_with<LazyHeap>(graph, variant.search);
+  if (queue == QueuePolicy::sorted_array) return best_first_with<SortedArray>(graph, variant.search);
+  if (queue == QueuePolicy::resorted_array) return best_first_with<ResortedArray>(graph, variant.search);
+  if (queue == QueuePolicy::linear_scan) return best_first_with<LinearScan>(graph, variant.search);
+  return best_first_with<IndexedHeap<4>>(graph, variant.search);
 }
 
 double path_length(const SearchGraph& graph, std::span<const VertexId> path) {

@@ -8,7 +8,6 @@
 #include <string_view>
 
 #include "pictures/formats/markup.hpp"
-#include "pictures/page/page_files.hpp"
 
 namespace warren::studies {
 namespace {
@@ -35,7 +34,7 @@ TextTable without_empty_columns(const TextTable& whole) {
     return left;
   };
   const auto empty_words = std::count(widths.begin(), widths.begin() + static_cast<std::ptrdiff_t>(whole.words), 0U);
-  TextTable table{kept(whole.head), whole.words - static_cast<std::size_t>(empty_words), {}, whole.title};
+  TextTable table{kept(whole.head), whole.words - static_cast<std::size_t>(empty_words), whole.title};
   for (const auto& row : whole.rows) table.rows.push_back(kept(row));
   return table;
 }

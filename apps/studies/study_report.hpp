@@ -14,9 +14,9 @@ namespace warren::studies {
 /// Its columns are as wide as their widest cell.
 struct TextTable {
   std::vector<std::string> head;
-  std::size_t words = 0;  ///< so many columns from the left stand to the left, the others to the right
-  std::vector<std::vector<std::string>> rows;
+  std::size_t words = 0;   ///< so many columns from the left stand to the left, the others to the right
   std::string title = {};  ///< of pages and documents; "": none
+  std::vector<std::vector<std::string>> rows = {};
 
   /// The head strong, each line with an end; columns that are empty in all rows are left out.
   std::string text(const Palette& palette) const;

@@ -54,7 +54,6 @@
 #include "solve/question/question.hpp"
 #include "solve/question/question_of_arm.hpp"
 #include "verify/judges/verify_arm.hpp"
-#include "verify/judges/verify_car.hpp"
 #include "verify/judges/verify_point.hpp"
 #include "verify/judges/verify_turning.hpp"
 #include "worlds/plane/polygon_world.hpp"

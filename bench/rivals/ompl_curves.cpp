@@ -13,8 +13,7 @@
 
 #include "bench/rivals/stopwatch.hpp"
 #include "core/base/rng.hpp"
-#include "worlds/poses/dubins_curve.hpp"
-#include "worlds/poses/reeds_shepp_curve.hpp"
+#include "worlds/poses/steering_curve.hpp"
 
 namespace warren {
 namespace {

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "core/base/types.hpp"
 
 namespace warren {
 
@@ -100,12 +101,9 @@ enum class PartKind : std::uint32_t { maze_group = 1, tiles = 2 };
 
 /// Where finished parts of a long work are kept, so that a later run of the same work goes on from them. Any number of
 /// threads may call find() and keep() at once.
-class KeptParts {
+class KeptParts : NotCopied {
  public:
-  KeptParts() = default;
   virtual ~KeptParts() = default;
-  KeptParts(const KeptParts&) = delete;
-  KeptParts& operator=(const KeptParts&) = delete;
   /// Before all else: what the work is, word for word all that its parts depend on. Throws InputError where parts of
   /// another work are kept.
   virtual void begin(std::string_view work) = 0;

@@ -185,12 +185,9 @@ struct Improvement {
 };
 
 /// Where the points of a path go that is too long to be held: they are handed on as they are made.
-class PathTaker {
+class PathTaker : NotCopied {
  public:
-  PathTaker() = default;
   virtual ~PathTaker() = default;
-  PathTaker(const PathTaker&) = delete;
-  PathTaker& operator=(const PathTaker&) = delete;
   /// Once, before the first piece: the number of points in all, at least one.
   virtual void begin(std::uint64_t points) = 0;
   /// The points that follow; each piece but the first begins with the last point of the one before.

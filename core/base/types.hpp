@@ -86,6 +86,13 @@ inline BoxSide side_under(const Segment& s, const Box& box) {
   return s.a.y == box.min.y ? BoxSide::bottom : s.a.y == box.max.y ? BoxSide::top : BoxSide::none;
 }
 
+/// A base of what is neither copied nor moved.
+struct NotCopied {
+  NotCopied() = default;                            ///< of nothing
+  NotCopied(const NotCopied&) = delete;             ///< never
+  NotCopied& operator=(const NotCopied&) = delete;  ///< never
+};
+
 /// Number of a vertex in a Graph, and of a milestone in a roadmap.
 using VertexId = std::uint32_t;
 /// No vertex has this number.

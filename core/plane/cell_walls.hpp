@@ -31,25 +31,20 @@ struct CellTile {
 };
 
 /// Makes tiles; belongs to one thread.
-class CellWallReader {
+class CellWallReader : NotCopied {
  public:
-  CellWallReader() = default;
   virtual ~CellWallReader() = default;
-  CellWallReader(const CellWallReader&) = delete;
-  CellWallReader& operator=(const CellWallReader&) = delete;
   /// Fills in the tile of this number, below CellWallSource::tile_count().
   virtual void read(std::size_t number, CellTile& tile) = 0;
 };
 
 /// Immutable; any number of readers may be at work.
-class CellWallSource {
+class CellWallSource : NotCopied {
  public:
   /// rows, cols: 1 .. 2^31 - 1; side_log2: 0 .. 8.
   CellWallSource(std::uint32_t rows, std::uint32_t cols, unsigned side_log2)
       : rows_(rows), cols_(cols), side_log2_(side_log2), tile_cols_(((cols - 1) >> side_log2) + 1) {}
   virtual ~CellWallSource() = default;
-  CellWallSource(const CellWallSource&) = delete;
-  CellWallSource& operator=(const CellWallSource&) = delete;
   virtual std::unique_ptr<CellWallReader> reader() const = 0;
 
   std::uint32_t rows() const { return rows_; }

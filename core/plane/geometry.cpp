@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/plane/geometry.hpp"
 
-#include <array>
 #include <cstddef>
 
 namespace warren {

@@ -2,7 +2,6 @@
 #include "core/plane/nearness.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 

@@ -146,6 +146,10 @@ struct Execution {
   void check() const {
     if (deadline != nullptr) deadline->check();
   }
+  /// The same, in one of 4096 steps of a loop.
+  void poll(std::uint64_t step) const {
+    if (step % 4096 == 0) check();
+  }
   /// Seconds that are left, at least 0; infinity: no limit.
   double seconds_left() const noexcept {
     return deadline != nullptr ? deadline->seconds_left() : std::numeric_limits<double>::infinity();
@@ -173,15 +177,13 @@ unsigned thread_count(unsigned threads);
 
 /// Measures one stage: adds the seconds between construction and destruction to `seconds`, and names the stage to
 /// whoever watches, records or keeps account.
-class StageTimer {
+class StageTimer : NotCopied {
  public:
   /// The stage begins; `items`: how many it has, 0: not known. `seconds` and what the execution points to outlive it.
   StageTimer(const Execution& execution, const char* stage, double& seconds, std::uint64_t items = 0);
   ~StageTimer();
   /// So many items it had, where they are known at its end alone: for a trace.
   void set_items(std::uint64_t items) noexcept { items_ = items; }
-  StageTimer(const StageTimer&) = delete;
-  StageTimer& operator=(const StageTimer&) = delete;
 
  private:
   Trace* trace_;

@@ -120,12 +120,10 @@ class StageAccount {
 
 /// One thread's clock of what takes turns, of every `every`-th turn; tells the account when it goes. Without an account
 /// it looks at no clock.
-class PartClock {
+class PartClock : NotCopied {
  public:
   PartClock(const Execution& execution, std::uint32_t every) : account_(execution.account), every_(every) {}
   ~PartClock();
-  PartClock(const PartClock&) = delete;
-  PartClock& operator=(const PartClock&) = delete;
 
   /// A turn begins.
   void begin() {

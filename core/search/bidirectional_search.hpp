@@ -64,7 +64,7 @@ inline constexpr std::size_t bytes_apart = 128;
 /// neighbours.for_each_target(v, visit) reads it ahead of time. to_target: consistent estimate to the other side's
 /// root; to_root: to this side's root.
 template <class Queue, class Neighbours, class ToTarget, class ToRoot>
-class SearchSide {
+class SearchSide : NotCopied {
  public:
   /// state and queue are cleared and sized here, and poll() is called meanwhile; all of it is used until the search
   /// ends.
@@ -80,8 +80,6 @@ class SearchSide {
     queue_.push(root, to_target_(root));
     labelled_.push_back(root);
   }
-  SearchSide(const SearchSide&) = delete;
-  SearchSide& operator=(const SearchSide&) = delete;
 
   /// Settles up to `limit` vertices. Reads the other side's published marks, writes nothing that it reads.
   template <class Other>

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Text of unknown origin inside of SVG and HTML.
+// What SVG and HTML are made of: text of unknown origin, colours, images; and how every page begins (page_io.cpp).
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 
+#include "core/base/embedded_file.hpp"
 #include "pictures/formats/write_picture.hpp"
 #include "pictures/model/colors.hpp"
 
@@ -32,5 +34,19 @@ class Base64 {
   const Write& write_;
   std::string left_;  // bytes that are no whole group of three
 };
+
+// Styles and scripts of pages, which the build puts into the library, and how every page begins.
+
+std::span<const EmbeddedFile> page_files();
+
+/// The bytes of one of them.
+std::string_view page_file(std::string_view name);
+
+/// A file as the element that runs it.
+std::string script_element(std::string_view name);
+
+/// Up to the end of <head>: the title as plain text, the style, and a policy by which nothing is loaded from anywhere
+/// and nothing is run but the scripts of that name, as script_element() writes them.
+std::string head_of_page(const std::string& title, std::string_view style, std::span<const std::string_view> scripts);
 
 }  // namespace warren

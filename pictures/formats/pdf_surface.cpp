@@ -64,10 +64,8 @@ class PdfSurface : public Surface {
     bold_ = HPDF_GetFont(document_.get(), "Helvetica-Bold", "WinAnsiEncoding");
     check();
   }
-  void tell(DocumentWords words) {
-    std::replace(words.subject.begin(), words.subject.end(), '\n', ' ');
-    HPDF_SetInfoAttr(document_.get(), HPDF_INFO_TITLE, latin1_text(words.title).c_str());
-    HPDF_SetInfoAttr(document_.get(), HPDF_INFO_SUBJECT, latin1_text(words.subject).c_str());
+  void tell(HPDF_InfoType what, const std::string& words) {
+    HPDF_SetInfoAttr(document_.get(), what, latin1_text(words).c_str());
   }
   void finish(const Write& write) {
     HPDF_SaveToStream(document_.get());
@@ -232,13 +230,15 @@ class PdfSurface : public Surface {
 
 bool can_write_pdf() { return true; }
 
-std::vector<std::string> draw_pdf(const Page& page, const DocumentWords& words, const DrawOn& draw,
+std::vector<std::string> draw_pdf(const Page& page, const std::string& title, std::string subject, const DrawOn& draw,
                                   const Execution& execution, const Write& write) {
   if (points_a_pixel * std::max(page.width, page.height) > largest_side) {
     throw UsageError("@size: a page of PDF is at most 5080 mm wide and high");
   }
   PdfSurface surface(page, execution);
-  surface.tell(words);
+  std::replace(subject.begin(), subject.end(), '\n', ' ');
+  surface.tell(HPDF_INFO_TITLE, title);
+  surface.tell(HPDF_INFO_SUBJECT, subject);
   std::vector<std::string> notes = draw(surface);
   surface.finish(write);
   return notes;
@@ -248,7 +248,8 @@ std::vector<std::string> draw_pdf(const Page& page, const DocumentWords& words, 
 
 bool can_write_pdf() { return false; }
 
-std::vector<std::string> draw_pdf(const Page&, const DocumentWords&, const DrawOn&, const Execution&, const Write&) {
+std::vector<std::string> draw_pdf(const Page&, const std::string&, std::string, const DrawOn&, const Execution&,
+                                  const Write&) {
   throw UsageError("this warren was built without libharu and writes no .pdf; say .svg, or build it with libhpdf-dev");
 }
 
@@ -258,7 +259,7 @@ std::vector<std::string> write_pdf(const Picture& picture, const PictureOptions&
                                    const Write& write) {
   const Page page = page_of(picture, options, false, execution);
   const auto draw = [&](Surface& surface) { return paint(picture, options.parts, page, surface, execution); };
-  return draw_pdf(page, {options.title.value_or(picture.title), picture.description}, draw, execution, write);
+  return draw_pdf(page, options.title.value_or(picture.title), picture.description, draw, execution, write);
 }
 
 }  // namespace warren

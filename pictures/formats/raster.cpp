@@ -10,7 +10,7 @@
 
 #include "pictures/formats/surface.hpp"
 #include "pictures/model/letters.hpp"
-#include "scenes/files/png_io.hpp"
+#include "scenes/files/image_io.hpp"
 
 namespace warren {
 namespace {
@@ -147,21 +147,6 @@ struct ColorBox {
   }
 };
 
-std::vector<ColorBox> boxes_of(const Image& image, const Execution& execution) {
-  std::vector<ColorBox> boxes(box_count);
-  for (std::size_t y = 0; y < image.height(); ++y) {
-    if (y % 64 == 0) execution.check();
-    const std::uint8_t* row = image.row(y);
-    for (std::size_t x = 0; x < image.width(); ++x) {
-      const std::uint8_t* pixel = row + 3 * x;
-      ColorBox& box = boxes[box_of_pixel(pixel)];
-      ++box.count;
-      for (std::size_t c = 0; c < 3; ++c) box.sums[c] += pixel[c];
-    }
-  }
-  return boxes;
-}
-
 std::uint8_t nearest(const Color& color, const std::vector<Color>& palette) {
   std::size_t best = 0;
   int least = std::numeric_limits<int>::max();
@@ -183,7 +168,17 @@ struct ImagePalette {
 };
 
 ImagePalette palette_of(const Image& image, const Execution& execution) {
-  const std::vector<ColorBox> all = boxes_of(image, execution);
+  std::vector<ColorBox> all(box_count);
+  for (std::size_t y = 0; y < image.height(); ++y) {
+    if (y % 64 == 0) execution.check();
+    const std::uint8_t* row = image.row(y);
+    for (std::size_t x = 0; x < image.width(); ++x) {
+      const std::uint8_t* pixel = row + 3 * x;
+      ColorBox& box = all[box_of_pixel(pixel)];
+      ++box.count;
+      for (std::size_t c = 0; c < 3; ++c) box.sums[c] += pixel[c];
+    }
+  }
   std::vector<std::size_t> boxes;
   for (std::size_t box = 0; box < box_count; ++box) {
     if (all[box].count > 0) boxes.push_back(box);

@@ -79,16 +79,11 @@ std::vector<std::string> paint(const Picture& picture, Parts parts, const Page& 
 /// Draws all there is on a surface, and says what was drawn otherwise than usual, a line each.
 using DrawOn = std::function<std::vector<std::string>(Surface&)>;
 
-/// What a document says of itself.
-struct DocumentWords {
-  std::string title;
-  std::string subject;
-};
-
 /// Both return what `draw` returns; they throw Stopped, and what `draw` and `write` throw.
 std::vector<std::string> draw_png(const Page& page, const DrawOn& draw, const Execution& execution, const Write& write);
-/// Throws UsageError where can_write_pdf() is false, and for pages too large.
-std::vector<std::string> draw_pdf(const Page& page, const DocumentWords& words, const DrawOn& draw,
+/// title, subject: what the document says of itself. Throws UsageError where can_write_pdf() is false, and for pages
+/// too large.
+std::vector<std::string> draw_pdf(const Page& page, const std::string& title, std::string subject, const DrawOn& draw,
                                   const Execution& execution, const Write& write);
 
 // A body that moves along the path of an SVG picture: SMIL, no script, nothing from elsewhere. It follows the path's

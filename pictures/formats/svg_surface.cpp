@@ -268,17 +268,6 @@ class SvgSurface : public Surface {
 
 constexpr std::string_view duration = "dur=\"8s\" repeatCount=\"indefinite\"";
 
-/// In degrees, without jumps.
-std::vector<double> angles_of(const std::vector<Se2>& poses) {
-  std::vector<double> angles;
-  double theta = poses.front().theta;
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    if (i > 0) theta += turn_between(poses[i - 1].theta, poses[i].theta);
-    angles.push_back(theta * 180.0 / std::numbers::pi);
-  }
-  return angles;
-}
-
 std::string shape_of(const MovingBody& body, double scale, double line_width) {
   const std::string style = fmt::format(
       R"(fill="#e11d48" fill-opacity="0.35" stroke="#9f1239" stroke-width="{:.3f}" stroke-linejoin="round")",
@@ -335,10 +324,15 @@ std::string svg_moving_body(const MovingBody& body, std::string_view path_id, do
   const std::string motion = fmt::format(
       R"(<animateMotion {} calcMode="linear" keyTimes="{}" keyPoints="{:.6f}"><mpath href="#{}"/></animateMotion>)",
       duration, moments, fmt::join(table.shares, ";"), path_id);
-  const std::string angles = fmt::format("{:.3f}", fmt::join(angles_of(body.poses), ";"));
+  std::vector<double> angles;  // degrees, without jumps
+  double theta = body.poses.front().theta;
+  for (std::size_t i = 0; i < body.poses.size(); ++i) {
+    if (i > 0) theta += turn_between(body.poses[i - 1].theta, body.poses[i].theta);
+    angles.push_back(theta * 180.0 / std::numbers::pi);
+  }
   const std::string turning = fmt::format(
-      R"(<animateTransform attributeName="transform" type="rotate" {} calcMode="linear" keyTimes="{}" values="{}"/>)",
-      duration, moments, angles);
+      R"(<animateTransform attributeName="transform" type="rotate" {} calcMode="linear" keyTimes="{}" values="{:.3f}"/>)",
+      duration, moments, fmt::join(angles, ";"));
   return fmt::format(
       "<g id=\"body\" visibility=\"hidden\"><set attributeName=\"visibility\" "
       "to=\"visible\"/>\n{}\n<g>{}\n{}</g></g>\n",

@@ -28,8 +28,6 @@ namespace {
 
 constexpr int round_corners = 24;  // of a cylinder
 
-Vec3 corner(const std::array<double, 3>& c) { return {c[0], c[1], c[2]}; }
-
 using Shapes = std::vector<SeenSolid>;
 
 void add_face(Shapes& shapes, const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -73,17 +71,13 @@ Shapes shapes_of(const Solid& solid) {
   return shapes;
 }
 
-SeenSolid moved(const SeenSolid& s, const Eigen::Isometry3d& to) {
-  SeenSolid there = s;
-  there.a = to * s.a;
-  there.b = to * s.b;
-  if (s.c) there.c = to * *s.c;
-  return there;
-}
-Shapes moved(const Shapes& shapes, const Eigen::Isometry3d& to) {
-  Shapes there;
-  for (const SeenSolid& s : shapes) there.push_back(moved(s, to));
-  return there;
+Shapes moved(Shapes shapes, const Eigen::Isometry3d& to) {
+  for (SeenSolid& s : shapes) {
+    s.a = to * s.a;
+    s.b = to * s.b;
+    if (s.c) s.c = to * *s.c;
+  }
+  return shapes;
 }
 
 /// Of all solids that only arms meet, each as its shapes.
@@ -98,7 +92,7 @@ std::vector<Shapes> obstacles_of(const Scene& scene, const Execution& execution)
     execution.check();
   };
   for (const Sphere& s : scene.spheres) add({{{s.x, s.y, s.z}, {s.x, s.y, s.z}, s.radius}});
-  for (const auto& [low, high] : scene.boxes) add({{corner(low), corner(high), -1.0}});
+  for (const auto& [low, high] : scene.boxes) add({{Vec3(low.data()), Vec3(high.data()), -1.0}});
   for (const Solid& solid : scene.solids) add(moved(shapes_of(solid), solid.pose));
   return all;
 }

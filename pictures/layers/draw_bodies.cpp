@@ -15,8 +15,6 @@
 #include "core/base/solution.hpp"
 #include "pictures/layers/draw_cells.hpp"
 #include "planners/graph/assemble_graph.hpp"
-#include "worlds/poses/dubins_curve.hpp"
-#include "worlds/poses/reeds_shepp_curve.hpp"
 #include "worlds/poses/steering_curve.hpp"
 #include "worlds/rasters/heading_layers.hpp"
 
@@ -26,11 +24,6 @@ namespace {
 constexpr double most_outlines = 24.0;
 constexpr std::size_t most_bends = 24;
 constexpr double faintest = 0.25;  // of the outlines, at the start
-
-std::vector<Vec2> outline_of(const RobotSpec& robot) {
-  if (!robot.outline.empty() || !(robot.radius > 0.0)) return robot.outline;
-  return circle_outline({}, robot.radius, 64);
-}
 
 std::vector<Vec2> moved_to(const Se2& pose, std::span<const Vec2> points) {
   const Rotation turned(pose.theta);
@@ -45,7 +38,7 @@ class BodyDrawing {
       : poses_(poses),
         drives_(robot.kind == RobotKind::car),
         has_heading_(drives_ || !robot.outline.empty()),
-        outline_(outline_of(robot)),
+        outline_(robot.outline.empty() ? circle_outline({}, robot.radius, 64) : robot.outline),
         size_(outline_reach(outline_)) {
     const std::vector<double> turns = leg_turns(poses);
     const std::vector<double> lengths = leg_lengths(poses, drives_ ? turns : std::vector<double>(poses.size(), 0.0));
@@ -154,14 +147,11 @@ class BodyDrawing {
   std::vector<double> travels_;  // way of the farthest point, at most, until each pose
 };
 
-SteeringCurve curve_between(const Se2& a, const Se2& b, const RobotSpec& car) {
+void add_curve(PictureLayer& layer, const Se2& a, const Se2& b, const RobotSpec& car) {
   const auto shortest = car.steering == SteeringKind::dubins        ? DubinsCurve::shortest
                         : car.steering == SteeringKind::reeds_shepp ? ReedsSheppCurve::shortest
                                                                     : DifferentialCurve::shortest;
-  return {a, b, shortest(a, b, car.turning_radius), car.turning_radius};
-}
-
-void add_curve(PictureLayer& layer, const SteeringCurve& curve) {
+  const SteeringCurve curve(a, b, shortest(a, b, car.turning_radius), car.turning_radius);
   std::vector<Se2> poses{curve.joint(0)};
   append_joints(poses, curve);
   std::vector<Vec2> chain;
@@ -253,7 +243,7 @@ CarCurves car_curves(std::span<const PlannedRoadmap<Se2>> roadmaps, const RobotS
   std::size_t drawn = 0;
   const auto add = [&](PictureLayer& layer, const Se2& a, const Se2& b) {
     if (++drawn % 256 == 0) execution.check();
-    add_curve(layer, curve_between(a, b, car));
+    add_curve(layer, a, b, car);
   };
   for (const PlannedRoadmap<Se2>& roadmap : roadmaps) {
     const RawVector<Se2>& states = roadmap.states;

@@ -29,14 +29,6 @@ std::vector<CellRun> runs_of(const Bitmap& cells, std::uint32_t y) {
   return runs;
 }
 
-/// Its blocked cells but the unknown ones.
-Bitmap known_of(const OccupancyMap& map, const Execution& execution) {
-  execution.reserve(map.blocked.bytes());
-  Bitmap known = map.blocked;
-  known.remove(map.unknown, [&] { execution.check(); });
-  return known;
-}
-
 /// Of length in a cell; 0: nothing may be there.
 double factor_of(const PriceMask& mask, int value) {
   constexpr int full = 100;
@@ -74,17 +66,6 @@ double strength(double factor, double dearest) {
 }
 
 constexpr double forbidden_opacity = 0.5;
-
-void add_areas(std::vector<PictureLayer>& layers, const Prices& prices, double dearest) {
-  std::map<double, PolygonSet> by_factor;
-  for (const PricedArea& area : prices.areas) by_factor[area.factor].add(area.corners);
-  for (auto& [factor, outlines] : by_factor) {
-    layers.push_back(layer_of_areas(fmt::format("area_{}", layers.size()),
-                                    fmt::format("area, {} times as dear", human_number(factor)),
-                                    strength(factor, dearest)));
-    layers.back().lines = std::move(outlines);
-  }
-}
 
 /// In four steps of price, so that a mask of a hundred values has a legend that is read.
 void add_mask(std::vector<PictureLayer>& layers, const PriceMask& mask, double dearest_of_all,
@@ -133,12 +114,21 @@ void add_mask(std::vector<PictureLayer>& layers, const PriceMask& mask, double d
 /// All but what nearness costs.
 std::vector<PictureLayer> layers_of_places(const Prices& prices, const Execution& execution) {
   double dearest = 1.0;
-  for (const PricedArea& area : prices.areas) dearest = std::max(dearest, area.factor);
+  std::map<double, PolygonSet> by_factor;
+  for (const PricedArea& area : prices.areas) {
+    dearest = std::max(dearest, area.factor);
+    by_factor[area.factor].add(area.corners);
+  }
   for (const PriceMask& mask : prices.masks) {
     for (int value = 1; value <= 100; ++value) dearest = std::max(dearest, factor_of(mask, value));
   }
   std::vector<PictureLayer> layers;
-  add_areas(layers, prices, dearest);
+  for (auto& [factor, outlines] : by_factor) {
+    layers.push_back(layer_of_areas(fmt::format("area_{}", layers.size()),
+                                    fmt::format("area, {} times as dear", human_number(factor)),
+                                    strength(factor, dearest)));
+    layers.back().lines = std::move(outlines);
+  }
   for (const PriceMask& mask : prices.masks) {
     if (mask.read) add_mask(layers, mask, dearest, execution);
   }
@@ -148,21 +138,6 @@ std::vector<PictureLayer> layers_of_places(const Prices& prices, const Execution
   layer.fill = colors::wrong;
   for (const KeepOut& area : prices.keep_out) layer.lines.add(area.corners);
   return layers;
-}
-
-/// Free cells whose middle is nearer than that to a blocked one. Layers of several reaches lie upon each other: the
-/// nearer the dearer.
-std::optional<PictureLayer> near_obstacles(const OccupancyMap& map, double reach, std::string id, std::string label,
-                                           const Execution& execution) {
-  Bitmap near = blocked_for_disc(map.blocked, reach / map.cell, execution);
-  near.remove(map.blocked, [&] { execution.check(); });
-  if (near.count() == 0) return std::nullopt;
-  const auto at = [&](Vec2 p) { return world_point(map, p); };
-  PictureLayer layer = cells_layer(std::move(id), std::move(label), near, at, execution);
-  layer.fill = colors::search_tree;
-  layer.opacity = 0.1;
-  layer.blocks = false;
-  return layer;
 }
 
 }  // namespace
@@ -200,9 +175,13 @@ PictureLayer cells_layer(std::string id, std::string label, const Bitmap& cells,
 std::vector<PictureLayer> cells_of_map(const OccupancyMap& map, const Execution& execution) {
   const auto at = [&](Vec2 p) { return world_point(map, p); };
   if (map.format != MapFormat::ros) return {cells_layer("blocked", "blocked cells", map.blocked, at, execution)};
+  execution.reserve(map.blocked.bytes());
+  Bitmap known = map.blocked;
+  known.remove(map.unknown, [&] { execution.check(); });
+  const char* occupied = map.between > 0 ? "occupied cells, and those between" : "occupied cells";
   std::vector<PictureLayer> layers;
-  const std::string_view occupied = map.between > 0 ? "occupied cells, and those between" : "occupied cells";
-  layers.push_back(cells_layer("occupied", std::string(occupied), known_of(map, execution), at, execution));
+  layers.push_back(cells_layer("occupied", occupied, known, at, execution));
+  known = {};
   layers.back().fill = colors::occupied_cell;
   if (!map.unknown.empty()) layers.push_back(cells_layer("unknown", "unknown cells", map.unknown, at, execution));
   return layers;
@@ -212,10 +191,18 @@ std::vector<PictureLayer> price_layers(const Prices& prices, const std::optional
                                        const Execution& execution) {
   std::vector<PictureLayer> layers;
   if (map && prices.clearance && prices.clearance->reach && prices.clearance->price > 0.0) {
+    const auto at = [&](Vec2 p) { return world_point(*map, p); };
+    // Free cells whose middle is nearer than that to a blocked one lie upon each other: the nearer the dearer.
     for (const auto& [share, id, label] :
          {std::tuple{1.0, "nearness", "nearness costs"}, {0.6, "nearness_more", ""}, {0.3, "nearness_most", ""}}) {
-      if (auto near = near_obstacles(*map, share * *prices.clearance->reach + radius, id, label, execution))
-        layers.push_back(std::move(*near));
+      const double reach = share * *prices.clearance->reach + radius;
+      Bitmap near = blocked_for_disc(map->blocked, reach / map->cell, execution);
+      near.remove(map->blocked, [&] { execution.check(); });
+      if (near.count() == 0) continue;
+      PictureLayer& layer = layers.emplace_back(cells_layer(id, label, near, at, execution));
+      layer.fill = colors::search_tree;
+      layer.opacity = 0.1;
+      layer.blocks = false;
     }
   }
   for (PictureLayer& layer : layers_of_places(prices, execution)) layers.push_back(std::move(layer));

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pictures/model/letters.hpp"
 
-#include <array>
 #include <utility>
 
 #include "core/base/printable.hpp"
@@ -166,20 +165,8 @@ struct GlyphReader {
   }
 };
 
-constexpr std::size_t glyph_count = 95 + 96;
-
-std::array<std::string_view, glyph_count> all_glyphs() {
-  std::array<std::string_view, glyph_count> glyphs;
-  std::string_view rest = letter_outlines;
-  for (std::string_view& glyph : glyphs) {
-    glyph = rest.substr(0, rest.find(' '));
-    rest.remove_prefix(std::min(rest.size(), glyph.size() + 1));
-  }
-  return glyphs;
-}
-
 GlyphReader glyph(std::size_t number) {
-  static const std::array<std::string_view, glyph_count> glyphs = all_glyphs();
+  static const std::vector<std::string_view> glyphs = split(letter_outlines, " ");
   return {glyphs[number]};
 }
 

@@ -7,7 +7,6 @@
 #include <string_view>
 #include <vector>
 
-#include "core/base/types.hpp"
 #include "core/plane/polygon.hpp"
 
 namespace warren {

@@ -378,14 +378,6 @@ void add_roadmap_entries(std::vector<LegendEntry>& entries, const PlannedRoadmap
   }
 }
 
-void add_path_entries(std::vector<LegendEntry>& entries, const Picture& picture) {
-  if (!picture.path.empty()) {
-    entries.push_back({.label = picture.path_label, .lines = {colors::path}, .width = widths::path});
-  }
-  if (picture.start) entries.push_back({.label = "start", .fill = colors::start, .mark = MarkShape::disc});
-  if (picture.goal) entries.push_back({.label = "goal", .fill = colors::goal, .mark = MarkShape::star});
-}
-
 void add_layer_entry(std::vector<LegendEntry>& entries, const PictureLayer& layer) {
   if (layer.label.empty() || layer.lines.empty()) return;
   for (const LegendEntry& there : entries) {
@@ -426,7 +418,12 @@ std::vector<LegendEntry> legend_of(const Picture& picture, Parts parts, const Ex
   add_layers(true);
   if (picture.roadmap != nullptr) add_roadmap_entries(entries, *picture.roadmap, parts, execution);
   add_layers(false);
-  if (parts.has(Part::path)) add_path_entries(entries, picture);
+  if (!parts.has(Part::path)) return entries;
+  if (!picture.path.empty()) {
+    entries.push_back({.label = picture.path_label, .lines = {colors::path}, .width = widths::path});
+  }
+  if (picture.start) entries.push_back({.label = "start", .fill = colors::start, .mark = MarkShape::disc});
+  if (picture.goal) entries.push_back({.label = "goal", .fill = colors::goal, .mark = MarkShape::star});
   return entries;
 }
 

@@ -129,15 +129,13 @@ std::vector<Vec2> circle_outline(Vec2 middle, double radius, int corners) {
   return outline;
 }
 
-namespace {
-
-/// Columns and rows of cells, from the first to the last that is known.
-Box known_cells(const Bitmap& unknown, const Execution& execution) {
-  Box known;
-  const std::uint32_t tail = unknown.width() % Bitmap::word_bits;
-  for (std::uint32_t y = 0; y < unknown.height(); ++y) {
+std::optional<Box> known_part(const OccupancyMap& map, const Execution& execution) {
+  if (map.unknown.empty()) return std::nullopt;
+  Box known;  // columns and rows of cells, from the first to the last that is known
+  const std::uint32_t tail = map.unknown.width() % Bitmap::word_bits;
+  for (std::uint32_t y = 0; y < map.unknown.height(); ++y) {
     if (y % 64 == 0) execution.check();
-    const auto words = unknown.row(y);
+    const auto words = map.unknown.row(y);
     for (std::size_t w = 0; w < words.size(); ++w) {
       const bool is_cut = tail != 0 && w + 1 == words.size();
       const std::uint64_t bits = ~words[w] & (is_cut ? (std::uint64_t{1} << tail) - 1 : ~std::uint64_t{0});
@@ -147,14 +145,6 @@ Box known_cells(const Bitmap& unknown, const Execution& execution) {
       known.include(Vec2{first + std::bit_width(bits) - 1.0, 1.0 * y});
     }
   }
-  return known;
-}
-
-}  // namespace
-
-std::optional<Box> known_part(const OccupancyMap& map, const Execution& execution) {
-  if (map.unknown.empty()) return std::nullopt;
-  const Box known = known_cells(map.unknown, execution);
   if (known.empty()) return std::nullopt;
   constexpr double share = 1.0 / 40.0;
   const double margin = std::max(2.0, share * (std::max(known.width(), known.height()) + 1.0));

@@ -22,12 +22,32 @@
 #include "pictures/formats/surface.hpp"
 #include "pictures/formats/write_picture.hpp"
 #include "pictures/model/picture.hpp"
-#include "pictures/page/page_files.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "scenes/scene/scene.hpp"
 
 namespace warren {
 namespace {
+
+const EmbeddedFile& file_named(std::string_view name) {
+  const auto files = page_files();
+  return *std::find_if(files.begin(), files.end(), [&](const EmbeddedFile& file) { return file.name == name; });
+}
+
+/// "'sha256-…'": what a policy names a script by.
+std::string source_of(std::string_view script) {
+  const std::string_view hex = file_named(script).sha256;
+  std::string bytes;
+  const auto digit = [](char c) { return c <= '9' ? c - '0' : c - 'a' + 10; };
+  for (std::size_t i = 0; i + 1 < hex.size(); i += 2) {
+    bytes += static_cast<char>(16 * digit(hex[i]) + digit(hex[i + 1]));
+  }
+  std::string text = "'sha256-";
+  const Write append = [&](std::string_view piece) { text += piece; };
+  Base64 base64(append);
+  base64.write(bytes);
+  base64.end();
+  return text + "'";
+}
 
 // Numbers as pages hold them: {"type": "f32", "data": base64}, little-endian, written in pieces.
 
@@ -87,13 +107,6 @@ class NumberArray {
 /// Does the page's script draw an arm in perspective, where it is on its way? Else its perspective is an image.
 bool moves_arm(const Picture& picture, Parts parts) {
   return picture.solids != nullptr && picture.arm != nullptr && !picture.arm->spines.empty() && parts.has(Part::body);
-}
-
-/// JSON as it may stand in a <script>.
-std::string in_script(std::string_view json) {
-  std::string safe;
-  for (const char c : json) safe += c == '<' ? std::string_view("\\u003c") : std::string_view(&c, 1);
-  return safe;
 }
 
 constexpr std::size_t most_drawn_walls = 4'000'000;
@@ -468,11 +481,14 @@ class PageWriter {
     return about;
   }
 
-  /// The object, whose end is left open.
+  /// The object as it may stand in a <script>; its end is left open.
   void begin(std::string_view before, const Json& object) {
-    std::string text = in_script(object.dump(-1, ' ', true, Json::error_handler_t::replace));
+    std::string text{before};
+    for (const char c : object.dump(-1, ' ', true, Json::error_handler_t::replace)) {
+      text += c == '<' ? std::string_view("\\u003c") : std::string_view(&c, 1);
+    }
     text.pop_back();
-    write_(std::string(before) + text);
+    write_(text);
   }
   void begin_layer(const Json& about) { begin(std::exchange(between_, ","), about); }
   template <class T>
@@ -516,6 +532,28 @@ class PageWriter {
 };
 
 }  // namespace
+
+std::string_view page_file(std::string_view name) { return file_named(name).bytes; }
+
+std::string script_element(std::string_view name) { return fmt::format("<script>{}</script>\n", page_file(name)); }
+
+std::string head_of_page(const std::string& title, std::string_view style, std::span<const std::string_view> scripts) {
+  std::string sources;
+  for (const std::string_view script : scripts) sources += " " + source_of(script);
+  return fmt::format(R"(<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src{}; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'">
+<link rel="icon" href="data:,">
+<title>{}</title>
+<style>
+{}</style>
+</head>
+)",
+                     sources, xml_text(title), style);
+}
 
 std::vector<std::string> write_html(const Picture& picture, const PictureOptions& options, const Execution& execution,
                                     const Write& write) {

@@ -507,7 +507,7 @@ void PlotsPage::write(const std::string& file, const std::string& title, const E
   if (ending == ".png") {
     draw_png(page, draw, execution, put);
   } else {
-    draw_pdf(page, {title, {}}, draw, execution, put);
+    draw_pdf(page, title, {}, draw, execution, put);
   }
   output.commit();
 }

@@ -104,10 +104,10 @@ struct PlotsPage {
 // A plot of a few series: axes with round ticks, linear or logarithmic, legend at the right.
 
 struct PlotSeries {
-  std::string name;          ///< in the legend
-  std::vector<Vec2> points;  ///< in the order in which the line joins them; on a logarithmic axis only those > 0 show
-  bool joined = true;        ///< by a line
-  bool dashed = false;       ///< the line alone, without markers: what is expected, not measured
+  std::string name;               ///< in the legend
+  std::vector<Vec2> points = {};  ///< in the order in which the line joins them; a logarithmic axis shows those > 0
+  bool joined = true;             ///< by a line
+  bool dashed = false;            ///< the line alone, without markers: what is expected, not measured
   /// The line keeps its height until the next point, and has no markers; spans are a band around it. What is infinite
   /// is above the frame.
   bool steps = false;
@@ -123,7 +123,7 @@ struct Plot {
   bool log_y = false;
   bool from_zero = false;  ///< a linear y axis starts at 0
   bool whole_x = false;    ///< a linear x axis counts something: ticks at whole numbers alone
-  std::vector<PlotSeries> series;
+  std::vector<PlotSeries> series = {};
   std::optional<double> level = {};  ///< a horizontal line
   std::string level_name = {};
 };

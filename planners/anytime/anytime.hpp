@@ -20,7 +20,6 @@
 #include <functional>
 #include <limits>
 #include <memory>
-#include <new>
 #include <optional>
 #include <span>
 #include <string>
@@ -130,7 +129,7 @@ class AnytimeSearch {
 
   AnytimeSolution<State> run() {
     solution_.lower_bound = options_.lower_bound;
-    try {
+    const std::optional<StopReason> stop = stopped_by([&] {
       const StageTimer timer(execution_, "search", solution_.seconds.search);
       while (!has_path() && !is_ended()) take_turn(execution_);
       if (has_path() && !is_straight_ && body_.lower_bound) {
@@ -140,22 +139,16 @@ class AnytimeSearch {
       Execution within = execution_;
       if (execution_.deadline != nullptr) within.deadline = &sooner;
       while (!is_ended()) take_turn(within);
-    } catch (const Stopped& stopped) {
-      return stopped_by(stopped.reason);
-    } catch (const std::bad_alloc&) {
-      return stopped_by(StopReason::memory);
+    });
+    if (stop) {
+      solution_.ended_by = name_of(*stop);
+      solution_.stop_reason = *stop;
     }
-    solution_.outcome = has_path() ? Outcome::solved : Outcome::not_connected;
+    solution_.outcome = has_path() ? Outcome::solved : stop ? Outcome::stopped : Outcome::not_connected;
     return std::move(solution_);
   }
 
  private:
-  AnytimeSolution<State> stopped_by(StopReason reason) {
-    solution_.ended_by = name_of(reason);
-    solution_.stop_reason = reason;
-    solution_.outcome = has_path() ? Outcome::solved : Outcome::stopped;
-    return std::move(solution_);
-  }
   static constexpr std::uint64_t first_share = 64;  // without a path
   static constexpr std::uint64_t better_share = 256;
   static constexpr std::uint64_t largest_share = 16'384;

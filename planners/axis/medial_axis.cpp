@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 
 #include "core/base/error.hpp"
 #include "core/base/trigonometry.hpp"
@@ -78,34 +77,39 @@ using Diagram = boost_polygon::voronoi_diagram<double, PolledDiagramTraits>;
 using Builder = boost_polygon::voronoi_builder<std::int32_t, IntegerTraits, PolledPredicates>;
 
 struct VoronoiDiagram {
-  std::vector<Vec2> vertices;  ///< in grid units
+  std::vector<Vec2> vertices;
   std::vector<VoronoiSite> sites;
   std::vector<AxisEdge> edges;  ///< unmeasured; their sites share no point, or are two segments that share an end
 };
 
-VoronoiSite site_of(const Diagram::cell_type& cell, std::span<const SnappedSegment> segments) {
-  const SnappedSegment& s = segments[cell.source_index()];
-  const auto number = static_cast<std::uint32_t>(cell.source_index());
-  const Vec2 a{static_cast<double>(s.x1), static_cast<double>(s.y1)};
-  const Vec2 b{static_cast<double>(s.x2), static_cast<double>(s.y2)};
-  if (cell.contains_segment()) return {{a, b}, number};
+constexpr double units_of_resolution = 4.0;
+
+/// Vertices are right to some units in the last place. Rounded to 2^-12 grid units, which is nothing beside the snap,
+/// those that lie on a coarse grid (in the middle of a corridor, say) do so exactly, and so do their clearances.
+double without_noise(double coordinate) { return std::nearbyint(coordinate * 4096.0) / 4096.0; }
+
+VoronoiSite site_of(const Diagram::cell_type& cell, const SnappedSegments& snapped) {
+  const IntegerPiece& s = snapped.segments[cell.source_index()];
+  const Vec2 a = snapped.grid.at(s.a.x + 0.0, s.a.y + 0.0);  // so that no zero is a negative one
+  const Vec2 b = snapped.grid.at(s.b.x + 0.0, s.b.y + 0.0);
+  if (cell.contains_segment()) return {{a, b}, s.source};
   const bool is_end = cell.source_category() == boost_polygon::SOURCE_CATEGORY_SEGMENT_END_POINT;
-  return {is_end ? AxisSite{b, b} : AxisSite{a, a}, number};
+  return {is_end ? Segment{b, b} : Segment{a, a}, s.source};
 }
 
-/// segments meet at their ends only, as snap_segments leaves them. Throws Stopped; for memory only before it
-/// begins.
-VoronoiDiagram voronoi_diagram(std::span<const SnappedSegment> segments, const Execution& execution) {
+/// In world units. Throws Stopped; for memory only before it begins.
+VoronoiDiagram voronoi_diagram(const SnappedSegments& snapped, const Execution& execution) {
   execution.check();
-  execution.reserve(segments.size() * bytes_per_segment);
+  execution.reserve(snapped.segments.size() * bytes_per_segment);
   const ConstructionScope scope(execution);
   Builder builder;
-  for (const SnappedSegment& s : segments) {
+  const auto whole = [](double coordinate) { return static_cast<std::int32_t>(coordinate); };
+  for (const IntegerPiece& s : snapped.segments) {
     poll_sometimes();
-    if (s.x1 == s.x2 && s.y1 == s.y2) {
-      builder.insert_point(s.x1, s.y1);
+    if (s.a == s.b) {
+      builder.insert_point(whole(s.a.x), whole(s.a.y));
     } else {
-      builder.insert_segment(s.x1, s.y1, s.x2, s.y2);
+      builder.insert_segment(whole(s.a.x), whole(s.a.y), whole(s.b.x), whole(s.b.y));
     }
   }
   Diagram diagram;
@@ -120,12 +124,12 @@ VoronoiDiagram voronoi_diagram(std::span<const SnappedSegment> segments, const E
   result.vertices.reserve(diagram.num_vertices());
   for (const auto& vertex : diagram.vertices()) {
     poll();
-    result.vertices.push_back({vertex.x(), vertex.y()});
+    result.vertices.push_back(snapped.grid.at(without_noise(vertex.x()), without_noise(vertex.y())));
   }
   result.sites.reserve(diagram.num_cells());
   for (const auto& cell : diagram.cells()) {
     poll();
-    result.sites.push_back(site_of(cell, segments));
+    result.sites.push_back(site_of(cell, snapped));
   }
   const auto vertex_number = [&](const Diagram::vertex_type* v) {
     return static_cast<std::uint32_t>(v - diagram.vertices().data());
@@ -143,18 +147,12 @@ VoronoiDiagram voronoi_diagram(std::span<const SnappedSegment> segments, const E
   return result;
 }
 
-constexpr double units_of_resolution = 4.0;
-
-/// Vertices are right to some units in the last place. Rounded to 2^-12 grid units, which is nothing beside the snap,
-/// those that lie on a coarse grid (in the middle of a corridor, say) do so exactly, and so do their clearances.
-double without_noise(double coordinate) { return std::nearbyint(coordinate * 4096.0) / 4096.0; }
-
 }  // namespace
 
-AxisCurve::AxisCurve(const AxisSite& one, const AxisSite& other, Vec2 from, Vec2 to) : from_(from), to_(to) {
-  if (one.is_point() != other.is_point()) {
-    const Vec2 focus = one.is_point() ? one.a : other.a;
-    const AxisSite& directrix = one.is_point() ? other : one;
+AxisCurve::AxisCurve(const Segment& one, const Segment& other, Vec2 from, Vec2 to) : from_(from), to_(to) {
+  if (is_point(one) != is_point(other)) {
+    const Vec2 focus = is_point(one) ? one.a : other.a;
+    const Segment& directrix = is_point(one) ? other : one;
     along_ = unit(directrix.b - directrix.a);
     origin_ = directrix.a + dot(focus - directrix.a, along_) * along_;
     const double side = cross(along_, focus - directrix.a);
@@ -165,7 +163,7 @@ AxisCurve::AxisCurve(const AxisSite& one, const AxisSite& other, Vec2 from, Vec2
   if (focal_ == 0.0) {
     origin_ = from;
     along_ = unit(to - from);
-    if (one.is_point() && other.is_point()) waist_ = parameter_beside(one.a);
+    if (is_point(one) && is_point(other)) waist_ = parameter_beside(one.a);
   }
   first_ = parameter_beside(from);
   last_ = parameter_beside(to);
@@ -195,10 +193,9 @@ double AxisCurve::length() const {
   return std::abs(from_apex(last_) - from_apex(first_));
 }
 
-double AxisCurve::slope_angle(double parameter) const { return portable::atan(parameter / focal_); }
-
 void AxisCurve::append_polyline(std::vector<Vec2>& path) const {
   if (focal_ > 0.0) {
+    const auto slope_angle = [&](double parameter) { return portable::atan(parameter / focal_); };
     const auto append = [&](double t0, double t1) {
       const double turn = slope_angle(t1) - slope_angle(t0);
       const double count = std::max(1.0, std::ceil(std::abs(turn) / largest_turn));
@@ -229,7 +226,25 @@ MedialAxis::MedialAxis(const PlaneObstacles& obstacles, const Execution& executi
   if (!(frame_.width() > 0.0) || !(frame_.height() > 0.0)) {
     throw InputError("medial axis", "expected bounds, or obstacles that span an area");
   }
-  build(obstacles, execution);
+  const SnappedSegments snapped = snap_segments(obstacles_, execution);
+  VoronoiDiagram diagram = voronoi_diagram(snapped, execution);
+  resolution_ = units_of_resolution * (snapped.grid.unit + snapped.error);
+  vertices_ = std::move(diagram.vertices);
+  sites_ = std::move(diagram.sites);
+  const std::vector<char> is_free = free_points(obstacles, vertices_, execution);
+  edges_.reserve(diagram.edges.size());
+  for (std::size_t i = 0; i < diagram.edges.size(); ++i) {
+    if (i % 4096 == 0) execution.check();
+    AxisEdge& edge = diagram.edges[i];
+    // The end with more room tells for sure on which side of the obstacles the whole edge lies.
+    const auto room = [&](VertexId v) { return distance(vertices_[v], obstacles_[sites_[edge.site].segment]); };
+    const VertexId wide = room(edge.from) >= room(edge.to) ? edge.from : edge.to;
+    if (is_free[wide] == 0 || room(wide) <= resolution_) continue;
+    const AxisCurve bare = curve(edge);
+    edge.length = bare.length();
+    edge.clearance = least_clearance(edge, bare);
+    edges_.push_back(edge);
+  }
 }
 
 std::vector<char> MedialAxis::free_points(const PlaneObstacles& obstacles, const std::vector<Vec2>& points,
@@ -245,35 +260,6 @@ std::vector<char> MedialAxis::free_points(const PlaneObstacles& obstacles, const
     is_free[i] = !cells.places[i].blocked && frame_.contains(points[i]) ? 1 : 0;
   }
   return is_free;
-}
-
-void MedialAxis::build(const PlaneObstacles& obstacles, const Execution& execution) {
-  const SnappedSegments snapped = snap_segments(obstacles_, execution);
-  VoronoiDiagram diagram = voronoi_diagram(snapped.segments, execution);
-  const SnapGrid& grid = snapped.grid;
-  snap_error_ = snapped.error;
-  resolution_ = units_of_resolution * (grid.unit + snap_error_);
-  vertices_ = std::move(diagram.vertices);
-  for (Vec2& v : vertices_) v = grid.at(without_noise(v.x), without_noise(v.y));
-  sites_ = std::move(diagram.sites);
-  for (VoronoiSite& site : sites_) {
-    site.shape = {grid.at(site.shape.a.x, site.shape.a.y), grid.at(site.shape.b.x, site.shape.b.y)};
-    site.segment = snapped.segments[site.segment].source;
-  }
-  const std::vector<char> is_free = free_points(obstacles, vertices_, execution);
-  edges_.reserve(diagram.edges.size());
-  for (std::size_t i = 0; i < diagram.edges.size(); ++i) {
-    if (i % 4096 == 0) execution.check();
-    AxisEdge& edge = diagram.edges[i];
-    // The end with more room tells for sure on which side of the obstacles the whole edge lies.
-    const auto room = [&](VertexId v) { return distance(vertices_[v], obstacles_[sites_[edge.site].segment]); };
-    const VertexId wide = room(edge.from) >= room(edge.to) ? edge.from : edge.to;
-    if (is_free[wide] == 0 || room(wide) <= resolution_) continue;
-    const AxisCurve bare = curve(edge);
-    edge.length = bare.length();
-    edge.clearance = least_clearance(edge, bare);
-    edges_.push_back(edge);
-  }
 }
 
 double MedialAxis::least_clearance(const AxisEdge& edge, const AxisCurve& curve) const {

@@ -25,11 +25,8 @@
 
 namespace warren {
 
-/// A point (a == b) or an open segment, whose ends are sites of their own.
-struct AxisSite {
-  Vec2 a, b;
-  bool is_point() const { return a == b; }
-};
+/// A site of the diagram is a point, or an open segment, whose ends are sites of their own.
+inline bool is_point(const Segment& site) { return site.a == site.b; }
 
 /// An edge of the diagram: the points with the same distance to two sites. Straight between two points or two segments;
 /// between a point and a segment an arc of the parabola with that focus and directrix. Arcs are kept as arcs: place,
@@ -38,7 +35,7 @@ struct AxisSite {
 class AxisCurve {
  public:
   /// Between `from` and `to`, both as far from one site as from the other.
-  AxisCurve(const AxisSite& one, const AxisSite& other, Vec2 from, Vec2 to);
+  AxisCurve(const Segment& one, const Segment& other, Vec2 from, Vec2 to);
 
   double first() const { return first_; }  ///< parameters of `from` and `to`, in either order
   double last() const { return last_; }
@@ -60,8 +57,6 @@ class AxisCurve {
   void append_polyline(std::vector<Vec2>& path) const;
 
  private:
-  double slope_angle(double parameter) const;
-
   Vec2 origin_;           // of the parameter: `from`, or the focus' foot on the directrix
   Vec2 along_, upwards_;  // units; upwards_ only for arcs: from the directrix to the focus
   double focal_ = 0.0;    // distance of focus and directrix; 0: straight
@@ -69,10 +64,10 @@ class AxisCurve {
   Vec2 from_, to_;
 };
 
-/// A segment without its ends, or an end; a == b for points. Coordinates in grid units.
+/// A segment without its ends, or an end.
 struct VoronoiSite {
-  AxisSite shape;
-  std::uint32_t segment;  ///< the number of a segment that it belongs to
+  Segment shape;          ///< snapped; world units
+  std::uint32_t segment;  ///< the number of an obstacle that it belongs to
 };
 
 /// A curve of the axis between two of its vertices.
@@ -101,26 +96,22 @@ class MedialAxis {
   }
   /// Least distance of the curve to the two obstacles that it lies between.
   double least_clearance(const AxisEdge& edge, const AxisCurve& curve) const;
-  /// In world units; of each, its obstacle is one of obstacles().
+  /// Of each, its segment is one of obstacles().
   const std::vector<VoronoiSite>& sites() const { return sites_; }
   /// Walls, polygons' sides, and the frame's four sides; bounds are obstacles, a mere box isn't.
   const std::vector<Segment>& obstacles() const { return obstacles_; }
   std::size_t true_obstacle_count() const { return true_obstacle_count_; }
   /// Curves with less clearance are closed to everybody.
   double resolution() const { return resolution_; }
-  double snap_error() const { return snap_error_; }
 
  private:
-  void build(const PlaneObstacles& obstacles, const Execution& execution);
-
   Box frame_;
   std::vector<Segment> obstacles_;
   std::size_t true_obstacle_count_ = 0;
   std::vector<Vec2> vertices_;
-  std::vector<VoronoiSite> sites_;  // `segment`: the obstacle's number
+  std::vector<VoronoiSite> sites_;
   std::vector<AxisEdge> edges_;
   double resolution_ = 0.0;
-  double snap_error_ = 0.0;
 };
 
 }  // namespace warren

@@ -48,8 +48,6 @@ bool boxes_are_apart(const Box& a, const Box& b, double r) noexcept {
 constexpr double tolerance = 1e-6;  // of the frame's size: how well a computed point must fit a curve
 constexpr double noise = 1e-7;      // of that: p lies on the axis
 
-double distance_to(const AxisSite& site, Vec2 p) { return distance(p, Segment{site.a, site.b}); }
-
 /// A place on the axis.
 struct AxisPlace {
   std::uint32_t edge;  ///< its number
@@ -64,9 +62,9 @@ struct Retraction {
   double room;  ///< distance of p to the site
 
   /// How far the ray goes until the other site is as near; infinite if never.
-  double reach(const AxisSite& other) const {
+  double reach(const Segment& other) const {
     const Vec2 to_p = from - other.a;
-    if (other.is_point()) {
+    if (is_point(other)) {
       const double closing = dot(direction, to_p) - room;
       return closing < 0.0 ? 0.5 * (room * room - dot(to_p, to_p)) / closing : infinity;
     }
@@ -82,16 +80,16 @@ std::optional<Retraction> retraction_of(const MedialAxis& axis, Vec2 p) {
   const std::vector<VoronoiSite>& sites = axis.sites();
   Retraction best{0, p, {}, infinity};
   for (std::uint32_t s = 0; s < sites.size(); ++s) {
-    const double d = distance_to(sites[s].shape, p);
+    const double d = distance(p, sites[s].shape);
     // An end of a segment is a site of its own, and comes first where both are as near.
-    if (d < best.room || (d == best.room && sites[s].shape.is_point())) {
+    if (d < best.room || (d == best.room && is_point(sites[s].shape))) {
       best.room = d;
       best.site = s;
     }
   }
-  const AxisSite& site = sites[best.site].shape;
-  const Vec2 away = p - nearest_point(p, {site.a, site.b});
-  if (!site.is_point()) {
+  const Segment& site = sites[best.site].shape;
+  const Vec2 away = p - nearest_point(p, site);
+  if (!is_point(site)) {
     const Vec2 along = site.b - site.a;
     Vec2 normal{-along.y, along.x};
     const Vec2 inwards = 0.5 * (axis.frame().min + axis.frame().max) - p;  // for points on the frame
@@ -294,11 +292,22 @@ WallSet true_obstacles(const MedialAxis& axis) {
   return WallSet::narrowest(std::span(axis.obstacles()).first(axis.true_obstacle_count()));
 }
 
+bool line_keeps_clearance(const WallIndex& walls, std::span<const Vec2> line, double r, const Execution& execution) {
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    if (i % 1024 == 0) execution.check();
+    if (!certainly_keeps_clearance(walls, {line[i - 1], line[i]}, r)) return false;
+  }
+  return true;
+}
+
 /// One plan: the steps share the question and fill in the solution.
 class AxisPlanning {
  public:
   AxisPlanning(Vec2 start, Vec2 goal, const MedialAxisOptions& options, const Execution& execution)
-      : start_(start), goal_(goal), options_(options), execution_(execution) {}
+      : start_(start), goal_(goal), options_(options), execution_(execution) {
+    if (options.clearance >= 0.0 && options.clearance <= largest_coordinate) return;
+    throw InputError("clearance", "expected a finite number >= 0", std::to_string(options.clearance));
+  }
 
   void run(const PlaneObstacles& obstacles) {
     if (obstacles.polygons.empty() && obstacles.walls.empty() && !obstacles.bounds) return go_straight();
@@ -340,7 +349,7 @@ class AxisPlanning {
     const auto fits = [&](Vec2 p) {
       if (!axis().frame().contains(p)) return false;
       for (std::size_t i = 0; i < polygons.size(); ++i) {
-        if (i % 4096 == 0) execution_.check();
+        execution_.poll(i);
         if (strictly_inside(polygons[i], p)) return false;
       }
       return is_clear({p, p});
@@ -356,13 +365,9 @@ class AxisPlanning {
   }
   bool join_ends() {
     const StageTimer timer(execution_, "join", solution_.seconds.connect);
-    const std::optional<AxisPlace> start = join(start_);
-    const std::optional<AxisPlace> goal = join(goal_);
-    solution_.outcome = Outcome::not_connected;
-    if (!start || !goal) return false;
-    start_place_ = *start;
-    goal_place_ = *goal;
-    return true;
+    start_place_ = join(start_);
+    goal_place_ = join(goal_);
+    return start_place_ && goal_place_;
   }
   std::optional<AxisPlace> join(Vec2 p) const {
     const std::optional<AxisPlace> place = retract(axis(), p);
@@ -387,7 +392,7 @@ class AxisPlanning {
   /// Searches with this clearance; true if there is a path.
   bool plan(double clearance) {
     const StageTimer timer(execution_, "search", solution_.seconds.search);
-    AxisGraph graph(axis(), start_place_, goal_place_, clearance, execution_);
+    AxisGraph graph(axis(), *start_place_, *goal_place_, clearance, execution_);
     solution_.outcome = Outcome::not_connected;
     if (!ends_are_joined(graph)) return false;
     if (options_.objective == AxisObjective::clearance) graph.narrow_to(graph.widest());
@@ -426,12 +431,7 @@ class AxisPlanning {
   bool keeps_clearance() {
     const StageTimer timer(execution_, "check", solution_.seconds.connect);
     if (obstacles_ == nullptr) obstacles_ = &own_obstacles_.emplace(true_obstacles(axis()), execution_);
-    for (std::size_t i = 1; i < solution_.path.size(); ++i) {
-      if (i % 1024 == 0) execution_.check();
-      const Segment leg{solution_.path[i - 1], solution_.path[i]};
-      if (!certainly_keeps_clearance(*obstacles_, leg, options_.clearance)) return false;
-    }
-    return true;
+    return line_keeps_clearance(*obstacles_, solution_.path, options_.clearance, execution_);
   }
 
   const Vec2 start_, goal_;
@@ -441,7 +441,7 @@ class AxisPlanning {
   const WallIndex* obstacles_ = nullptr;  // that the path is checked against
   std::optional<WallIndex> own_obstacles_;
   MedialAxisPlan plan_;
-  AxisPlace start_place_{}, goal_place_{};
+  std::optional<AxisPlace> start_place_, goal_place_;
   Solution<Vec2> solution_;
 };
 
@@ -449,59 +449,11 @@ class AxisPlanning {
 template <class Ground>
 Solution<Vec2> plan_on(const Ground& ground, Vec2 start, Vec2 goal, const MedialAxisOptions& options,
                        const Execution& execution, MedialAxisPlan* keep) {
-  if (!(options.clearance >= 0.0) || !(options.clearance <= largest_coordinate)) {
-    throw InputError("clearance", "expected a finite number >= 0", std::to_string(options.clearance));
-  }
   AxisPlanning planning(start, goal, options, execution);
   Solution<Vec2> solution = run_plan(planning, ground);
   if (keep != nullptr) *keep = std::move(planning.kept());
   return solution;
 }
-
-constexpr std::size_t edges_per_poll = 256;
-
-/// Collects lines; a vertex of the axis becomes a point where a line first comes by.
-class LinesOfAxis {
- public:
-  LinesOfAxis(const AxisRoadmap& roadmap, double clearance)
-      : roadmap_(roadmap), clearance_(clearance), point_of_(roadmap.axis.vertices().size(), no_vertex) {}
-
-  void add(const AxisEdge& edge) {
-    corners_.assign(1, roadmap_.axis.vertices()[edge.from]);
-    roadmap_.axis.curve(edge).append_polyline(corners_);
-    corners_.erase(std::unique(corners_.begin(), corners_.end()), corners_.end());
-    for (std::size_t i = 1; i < corners_.size(); ++i) {
-      if (!certainly_keeps_clearance(roadmap_.index, {corners_[i - 1], corners_[i]}, clearance_)) return;
-    }
-    VertexId before = vertex(edge.from);
-    for (std::size_t i = 1; i < corners_.size(); ++i) {
-      const VertexId next = i + 1 == corners_.size() ? vertex(edge.to) : point(corners_[i]);
-      if (before != next) lines_.edges.push_back({std::min(before, next), std::max(before, next)});
-      before = next;
-    }
-  }
-  StraightLines take(const Execution& execution) {
-    polled_sort(lines_.edges.begin(), lines_.edges.end(), execution);
-    lines_.edges.erase(std::unique(lines_.edges.begin(), lines_.edges.end()), lines_.edges.end());
-    return std::move(lines_);
-  }
-
- private:
-  VertexId point(Vec2 at) {
-    lines_.points.push_back(at);
-    return static_cast<VertexId>(lines_.points.size() - 1);
-  }
-  VertexId vertex(VertexId v) {
-    if (point_of_[v] == no_vertex) point_of_[v] = point(roadmap_.axis.vertices()[v]);
-    return point_of_[v];
-  }
-
-  const AxisRoadmap& roadmap_;
-  double clearance_;
-  std::vector<VertexId> point_of_;
-  std::vector<Vec2> corners_;
-  StraightLines lines_;
-};
 
 }  // namespace
 
@@ -531,14 +483,37 @@ Solution<Vec2> plan_on_medial_axis(const AxisRoadmap& roadmap, Vec2 start, Vec2 
 }
 
 StraightLines axis_lines(const AxisRoadmap& roadmap, double clearance, const Execution& execution) {
-  const double least = std::max(clearance, roadmap.axis.resolution());
-  LinesOfAxis lines(roadmap, clearance);
-  for (std::size_t i = 0; i < roadmap.axis.edges().size(); ++i) {
-    if (i % edges_per_poll == 0) execution.check();
-    const AxisEdge& edge = roadmap.axis.edges()[i];
-    if (edge.clearance >= least) lines.add(edge);
+  const MedialAxis& axis = roadmap.axis;
+  const double least = std::max(clearance, axis.resolution());
+  StraightLines lines;
+  std::vector<VertexId> point_of(axis.vertices().size(), no_vertex);  // made where a line first comes by
+  const auto point = [&](Vec2 at) {
+    lines.points.push_back(at);
+    return static_cast<VertexId>(lines.points.size() - 1);
+  };
+  const auto vertex = [&](VertexId v) {
+    if (point_of[v] == no_vertex) point_of[v] = point(axis.vertices()[v]);
+    return point_of[v];
+  };
+  std::vector<Vec2> corners;
+  for (std::size_t i = 0; i < axis.edges().size(); ++i) {
+    if (i % 256 == 0) execution.check();
+    const AxisEdge& edge = axis.edges()[i];
+    if (edge.clearance < least) continue;
+    corners.assign(1, axis.vertices()[edge.from]);
+    axis.curve(edge).append_polyline(corners);
+    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+    if (!line_keeps_clearance(roadmap.index, corners, clearance, execution)) continue;
+    VertexId before = vertex(edge.from);
+    for (std::size_t c = 1; c < corners.size(); ++c) {
+      const VertexId next = c + 1 == corners.size() ? vertex(edge.to) : point(corners[c]);
+      if (before != next) lines.edges.push_back({std::min(before, next), std::max(before, next)});
+      before = next;
+    }
   }
-  return lines.take(execution);
+  polled_sort(lines.edges.begin(), lines.edges.end(), execution);
+  lines.edges.erase(std::unique(lines.edges.begin(), lines.edges.end()), lines.edges.end());
+  return lines;
 }
 
 }  // namespace warren

@@ -63,7 +63,7 @@ inline constexpr std::array<std::size_t, 2> numbers_of<Se2>{3, 4};
 
 /// one_way_: does the way from a to b say nothing of the way back? Any number of threads may ask, each with a query.
 template <class S, bool one_way_ = false>
-class AnyWorld {
+class AnyWorld : NotCopied {
  public:
   using State = S;
   using Query = AnyQuery;
@@ -72,10 +72,7 @@ class AnyWorld {
   static constexpr std::size_t dimension = numbers_of<State>[0];
   using Embedding = std::array<double, numbers_of<State>[1]>;
 
-  AnyWorld() = default;
   virtual ~AnyWorld() = default;
-  AnyWorld(const AnyWorld&) = delete;
-  AnyWorld& operator=(const AnyWorld&) = delete;
 
   // As concept SteerableWorld has them.
   virtual Query make_query() const = 0;

@@ -27,31 +27,23 @@ struct RoutedHalf {
   VertexId target;
 };
 
-/// What the check of one part found.
-struct PartShape {
-  bool ordered = true;  // from ascending, from < to
-  VertexId first = 0;
-  VertexId last = 0;
-};
-
-PartShape check_part(std::size_t vertex_count, std::span<const Edge> part) {
-  PartShape shape;
+/// Is the part in order: from ascending, from < to? Checks its ends.
+bool is_ordered(std::size_t vertex_count, std::span<const Edge> part) {
+  bool ordered = true;
   VertexId largest = 0;
   VertexId before = 0;
   bool loop = false;
   for (const Edge& e : part) {
     largest = std::max(largest, std::max(e.from, e.to));
     loop |= e.from == e.to;
-    shape.ordered &= e.from >= before && e.from < e.to;
+    ordered &= e.from >= before && e.from < e.to;
     before = e.from;
   }
   if (loop) throw InputError("graph", "an edge joins a vertex to itself");
-  if (!part.empty()) {
-    if (largest >= vertex_count) throw InputError("graph", "an edge's end is not a vertex", std::to_string(largest));
-    shape.first = part.front().from;
-    shape.last = part.back().from;
+  if (!part.empty() && largest >= vertex_count) {
+    throw InputError("graph", "an edge's end is not a vertex", std::to_string(largest));
   }
-  return shape;
+  return ordered;
 }
 
 /// Place of the edge in front of which a block begins: part and position in it.
@@ -91,15 +83,15 @@ class Assembly {
     }
     if (vertex_count_ > no_vertex) throw InputError("graph", "too many vertices", std::to_string(vertex_count_));
     edge_count_ = edges;
-    std::vector<PartShape> shapes(parts_.size());
+    std::vector<std::uint8_t> ordered(parts_.size());
     const std::size_t grain = std::max<std::size_t>(1, parts_.size() / 1024);
     for_each_index(parts_.size(), grain, execution_.quiet(),
-                   [&](std::size_t p) { shapes[p] = check_part(vertex_count_, parts_[p]); });
+                   [&](std::size_t p) { ordered[p] = is_ordered(vertex_count_, parts_[p]) ? 1 : 0; });
     VertexId last = 0;
     for (ordered_ = 0; ordered_ < parts_.size(); ++ordered_) {
       if (parts_[ordered_].empty()) continue;
-      if (!shapes[ordered_].ordered || shapes[ordered_].first < last) break;
-      last = shapes[ordered_].last;
+      if (ordered[ordered_] == 0 || parts_[ordered_].front().from < last) break;
+      last = parts_[ordered_].back().from;
     }
   }
 

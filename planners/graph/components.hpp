@@ -12,9 +12,11 @@
 #include <span>
 #include <utility>
 
+#include "core/base/raw_vector.hpp"
 #include "core/base/types.hpp"
 #include "core/run/execution.hpp"
 #include "core/search/graph.hpp"
+#include "parallel/chunks.hpp"
 
 namespace warren {
 
@@ -60,5 +62,21 @@ class UnionForest {
  private:
   std::span<VertexId> parent_;
 };
+
+/// Which of 0 .. n - 1 hang together: each(v, join) calls join(w) for those that v is joined with, of each pair for one
+/// of the two at least. For each the smallest one of its set, whatever the order of the unions. Throws Stopped.
+template <class Each>
+RawVector<VertexId> joined_labels(std::size_t n, const Execution& execution, const Each& each) {
+  constexpr std::size_t grain = std::size_t{1} << 14;
+  execution.reserve(n * sizeof(VertexId));
+  RawVector<VertexId> label(n);
+  for_each_index<VertexId>(n, grain, execution.quiet(), [&](VertexId v) { label[v] = v; });
+  const UnionForest forest(label);
+  for_each_index<VertexId>(n, grain, execution, [&](VertexId v) { each(v, [&](VertexId w) { forest.join(v, w); }); });
+  for_each_index<VertexId>(n, grain, execution.quiet(), [&](VertexId v) {
+    std::atomic_ref(label[v]).store(forest.root_of(v), std::memory_order_relaxed);
+  });
+  return label;
+}
 
 }  // namespace warren

@@ -2,12 +2,16 @@
 #include "planners/graph/hierarchy.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/base/rng.hpp"
 #include "parallel/chunks.hpp"
+#include "parallel/sort.hpp"
 
 namespace warren {
 std::size_t Hierarchy::arc_to(VertexId low, VertexId high) const {
@@ -97,18 +101,6 @@ void HierarchyClimb::reach(VertexId v, double length, VertexId parent) {
   queue_.push(v, length);
 }
 
-QueueEntry HierarchyClimb::pop() {
-  const QueueEntry next = queue_.pop();
-  while (!queue_.empty() && queue_.top().key > length(queue_.top().vertex)) queue_.pop();
-  return next;
-}
-
-RawVector<VertexId> HierarchyClimb::back_from(VertexId v) const {
-  RawVector<VertexId> way;
-  for (; v != no_vertex; v = slots_[slot_of(v)].parent) way.push_back(v);
-  return way;
-}
-
 bool HierarchyQuery::search(std::span<const HierarchyEnd> start, std::span<const HierarchyEnd> goal, double limit) {
   scratch_.sides[0].begin(start);
   scratch_.sides[1].begin(goal);
@@ -141,15 +133,11 @@ void HierarchyQuery::settle(std::size_t side) {
   const auto is_shorter = [&](const HierarchyArc& arc) { return climb.length(arc.to) + arc.length < next.key; };
   if (std::any_of(row.begin(), row.end(), is_shorter)) return;  // a way from above
   for (const HierarchyArc& arc : row) climb.reach(arc.to, next.key + arc.length, v);
-  if (!climb.empty()) fetch_row(climb.top().vertex);
-}
-
-/// Asks the memory for what is settled after the other end's turn.
-void HierarchyQuery::fetch_row(VertexId v) const {
-  const auto row = hierarchy_.row(v);
+  if (climb.empty()) return;
+  const auto ahead = hierarchy_.row(climb.top().vertex);  // is settled after the other end's turn
   constexpr std::size_t arcs_a_line = 64 / sizeof(HierarchyArc);
-  for (std::size_t i = 0; i < std::min<std::size_t>(row.size(), 8 * arcs_a_line); i += arcs_a_line) {
-    __builtin_prefetch(row.data() + i);
+  for (std::size_t i = 0; i < std::min<std::size_t>(ahead.size(), 8 * arcs_a_line); i += arcs_a_line) {
+    __builtin_prefetch(ahead.data() + i);
   }
 }
 
@@ -184,21 +172,6 @@ void HierarchyQuery::take_apart() {
   }
 }
 
-/// Their ends, the first one left out.
-void HierarchyQuery::append_edges(std::uint32_t part, RawVector<VertexId>& way) {
-  todo_.assign(1, part);
-  while (!todo_.empty()) {
-    const PartOfWay& next = scratch_.parts[todo_.back()];
-    todo_.pop_back();
-    if (next.middle == no_vertex) {
-      way.push_back(next.to);
-    } else {
-      todo_.push_back(next.first + 1);
-      todo_.push_back(next.first);
-    }
-  }
-}
-
 RawVector<VertexId> HierarchyQuery::path() {
   const RawVector<VertexId> climb = scratch_.sides[0].back_from(meeting_);
   const RawVector<VertexId> descent = scratch_.sides[1].back_from(meeting_);
@@ -209,7 +182,19 @@ RawVector<VertexId> HierarchyQuery::path() {
   take_apart();
   RawVector<VertexId> way;
   way.push_back(climb.back());
-  for (std::uint32_t arc = 0; arc < arcs; ++arc) append_edges(arc, way);
+  std::vector<std::uint32_t> todo;  // parts
+  for (std::uint32_t arc = 0; arc < arcs; ++arc) {
+    for (todo.assign(1, arc); !todo.empty();) {
+      const PartOfWay& next = scratch_.parts[todo.back()];
+      todo.pop_back();
+      if (next.middle == no_vertex) {
+        way.push_back(next.to);
+      } else {
+        todo.push_back(next.first + 1);
+        todo.push_back(next.first);
+      }
+    }
+  }
   return way;
 }
 
@@ -245,6 +230,402 @@ SearchResult route_by_hierarchy(const Hierarchy& hierarchy, std::span<const Edge
   found.status = found.path.empty() ? SearchStatus::exhausted : SearchStatus::found;
   found.expanded = query.settled();
   return found;
+}
+
+namespace {
+
+/// An edge that stands for the way over a vertex that is taken out.
+struct Shortcut {
+  VertexId from;    ///< of the graph that is left
+  VertexId to;      ///< likewise
+  VertexId middle;  ///< of the whole graph
+  double length;
+};
+
+constexpr std::size_t shrinking_grain = std::size_t{1} << 12;
+
+/// The arcs of each row that shortcuts bring, by their ends; each shortcut twice.
+struct NewArcs {
+  RawVector<Shortcut> arc;  // from, to: of the graph before
+  ItemsByKey by_row;
+};
+
+NewArcs both_ways(std::size_t vertex_count, const std::vector<RawVector<Shortcut>>& shortcuts,
+                  const Execution& execution) {
+  std::vector<std::size_t> begin{0};
+  for (const auto& part : shortcuts) begin.push_back(begin.back() + 2 * part.size());
+  NewArcs all;
+  execution.reserve(begin.back() * sizeof(Shortcut));
+  all.arc.resize(begin.back());
+  for_chunks(shortcuts.size(), 1, execution, [&](Range r) {
+    std::size_t next = begin[r.first];
+    for (const Shortcut& s : shortcuts[r.first]) {
+      all.arc[next++] = s;
+      all.arc[next++] = {s.to, s.from, s.middle, s.length};
+    }
+  });
+  all.by_row = counting_sort(all.arc.size(), vertex_count, execution, [&](std::size_t i) { return all.arc[i].from; });
+  return all;
+}
+
+/// Writes the rows of one thread's vertices.
+class RowMaker {
+ public:
+  RowMaker(const ShrinkingGraph& before, std::span<const std::uint8_t> taken, const NewArcs& added)
+      : before_(before), taken_(taken), added_(added) {}
+
+  /// Arcs to vertices of the graph before, ascending, one a vertex.
+  std::span<const HierarchyArc> row(VertexId v) {
+    fresh_.clear();
+    for (const std::uint32_t i : added_.by_row.of(v)) {
+      const Shortcut& s = added_.arc[i];
+      fresh_.push_back({s.to, s.middle, s.length});
+    }
+    std::sort(fresh_.begin(), fresh_.end(), [](const HierarchyArc& a, const HierarchyArc& b) {
+      return std::tie(a.to, a.length, a.middle) < std::tie(b.to, b.length, b.middle);
+    });
+    row_.clear();
+    auto next = fresh_.cbegin();
+    for (const HierarchyArc& old : before_.row(v)) {
+      if (taken_[old.to] != 0) continue;
+      while (next != fresh_.cend() && next->to < old.to) add(*next++);
+      add(old);
+    }
+    while (next != fresh_.cend()) add(*next++);
+    return row_;
+  }
+
+ private:
+  void add(const HierarchyArc& arc) {
+    if (row_.empty() || row_.back().to != arc.to) {
+      row_.push_back(arc);
+    } else if (arc.length < row_.back().length) {
+      row_.back() = arc;
+    }
+  }
+  const ShrinkingGraph& before_;
+  std::span<const std::uint8_t> taken_;
+  const NewArcs& added_;
+  std::vector<HierarchyArc> fresh_;
+  std::vector<HierarchyArc> row_;
+};
+
+/// Turns how many arcs each row has, and a zero behind the last, into where the rows begin; returns their sum. Throws
+/// Stopped, and InputError for 2^32 arcs or more.
+std::size_t scan_rows(RawVector<EdgeEnd>& counts, const Execution& execution) {
+  const std::uint64_t total = exclusive_scan(counts, execution);
+  if (total > std::numeric_limits<EdgeEnd>::max()) {
+    throw InputError("contraction", "needs 2^32 arcs or more", std::to_string(total));
+  }
+  return total;
+}
+
+/// The graph, which has lengths, before the first round. Throws Stopped.
+ShrinkingGraph shrinking_graph(const Graph& graph, const Execution& execution) {
+  const std::size_t n = graph.vertex_count();
+  execution.reserve(graph.targets().size() * sizeof(HierarchyArc) + n * (sizeof(VertexId) + sizeof(EdgeEnd)));
+  ShrinkingGraph whole;
+  whole.vertex.resize(n);
+  whole.first.assign(graph.offsets().begin(), graph.offsets().end());
+  whole.arc.resize(graph.targets().size());
+  for_each_index<VertexId>(n, shrinking_grain, execution, [&](VertexId v) {
+    whole.vertex[v] = v;
+    const auto row = graph.neighbours(v);
+    const auto lengths = graph.lengths(v);
+    HierarchyArc* next = whole.arc.data() + whole.first[v];
+    for (std::size_t k = 0; k < row.size(); ++k) *next++ = {row[k], no_vertex, lengths[k]};
+  });
+  return whole;
+}
+
+/// Without the vertices v that have taken[v] != 0, and with the shortcuts, part by part; of two arcs between the same
+/// vertices the shorter one stays. Nothing of `before` is left. Throws Stopped, and InputError for 2^32 arcs or more.
+ShrinkingGraph shrunk(ShrinkingGraph before, std::span<const std::uint8_t> taken,
+                      const std::vector<RawVector<Shortcut>>& shortcuts, const Execution& execution) {
+  const std::size_t n = before.size();
+  const NewArcs added = both_ways(n, shortcuts, execution);
+  execution.reserve(n * 3 * sizeof(VertexId));
+  RawVector<VertexId> number(n);  // in the graph after
+  for_each_index(n, shrinking_grain, execution, [&](std::size_t v) { number[v] = taken[v] == 0 ? 1 : 0; });
+  execution.reserve((before.arc.size() + added.arc.size()) * 2 * sizeof(HierarchyArc));
+  ShrinkingGraph after;
+  after.vertex.resize(exclusive_scan(number, execution));
+  after.first.resize(after.size() + 1);
+  after.first.back() = 0;
+  std::vector<RawVector<HierarchyArc>> rows(chunk_count(n, shrinking_grain));
+  for_chunks(n, shrinking_grain, execution, [&](Range r) {
+    RowMaker maker(before, taken, added);
+    RawVector<HierarchyArc>& arcs = rows[r.first / shrinking_grain];
+    for (std::size_t i = r.first; i < r.last; ++i) {
+      const auto v = static_cast<VertexId>(i);
+      if (taken[v] != 0) continue;
+      after.vertex[number[v]] = before.vertex[v];
+      const auto row = maker.row(v);
+      after.first[number[v]] = static_cast<EdgeEnd>(row.size());
+      for (const HierarchyArc& arc : row) arcs.push_back({number[arc.to], arc.middle, arc.length});
+    }
+  });
+  before = {};
+  after.arc.resize(scan_rows(after.first, execution));
+  for_chunks(n, shrinking_grain, execution, [&](Range r) {
+    const RawVector<HierarchyArc>& arcs = rows[r.first / shrinking_grain];
+    if (!arcs.empty()) std::copy(arcs.begin(), arcs.end(), after.arc.begin() + after.first[number[r.first]]);
+  });
+  return after;
+}
+
+/// Which shortcuts taking out a vertex needs: for each two of its neighbours one of the length of the way over it,
+/// unless another way that is no longer is found by a search that looks at a few dozen vertices (a witness). Fewer
+/// looks than would find all witnesses leave some shortcuts too many, which cost and harm nothing. Scratch of one
+/// thread. Refers to all that it is given.
+class WitnessSearch {
+ public:
+  /// taken: what leaves the graph in the same round, no two of them neighbours; no witness leads over them.
+  WitnessSearch(const ShrinkingGraph& graph, std::span<const std::uint8_t> taken, const Execution& execution)
+      : graph_(graph), taken_(taken), execution_(execution) {}
+
+  /// Appends the shortcuts that v needs. Throws Stopped.
+  void append_shortcuts(VertexId v, RawVector<Shortcut>& shortcuts) {
+    const auto row = graph_.row(v);
+    for (std::size_t i = 0; i + 1 < row.size(); ++i) {
+      const auto others = row.subspan(i + 1);
+      if (i % 16 == 0) execution_.check();
+      begin(others, row[i].length);
+      double longest = 0.0;
+      for (const HierarchyArc& arc : others) longest = std::max(longest, row[i].length + arc.length);
+      search(row[i].to, longest);
+      for (const HierarchyArc& arc : others) {
+        const double length = slot_of(arc.to).wanted;
+        if (length != unwanted) shortcuts.push_back({row[i].to, arc.to, graph_.vertex[v], length});
+      }
+    }
+  }
+
+ private:
+  static constexpr std::size_t most_reached = 1024;
+  static constexpr std::size_t most_settled = 120;
+  static constexpr double nowhere = std::numeric_limits<double>::infinity();
+  static constexpr double unwanted = -1.0;
+
+  /// A vertex that the search has reached, or that it looks for.
+  struct Slot {
+    std::uint32_t search = 0;
+    VertexId vertex = 0;
+    double length = 0.0;  // of the way to it
+    double wanted = 0.0;  // a way of at most this length is a witness; none is looked for: less than any
+  };
+  /// Where v stands; an empty slot where it doesn't.
+  Slot& slot_of(VertexId v) {
+    std::size_t slot = v * std::uint64_t{0x9e3779b97f4a7c15U} >> 32 & (slots_.size() - 1);
+    while (slots_[slot].search == search_ && slots_[slot].vertex != v) slot = (slot + 1) & (slots_.size() - 1);
+    return slots_[slot];
+  }
+  /// A new search for the targets, over what is `before` them.
+  void begin(std::span<const HierarchyArc> targets, double before) {
+    const std::size_t size = std::bit_ceil(2 * (targets.size() + most_reached + 1));
+    if (slots_.size() < size || ++search_ == 0) {
+      slots_.assign(std::max(size, slots_.size()), {});
+      search_ = 1;
+    }
+    queue_.clear();
+    for (const HierarchyArc& target : targets)
+      slot_of(target.to) = {search_, target.to, nowhere, before + target.length};
+    used_ = targets.size();
+    missing_ = targets.size();
+  }
+  /// Until all targets have their witnesses.
+  void search(VertexId from, double longest) {
+    reach(from, 0.0);
+    for (std::size_t settled = 0; missing_ > 0 && !queue_.empty() && settled < most_settled;) {
+      const QueueEntry next = queue_.pop();
+      if (next.key > slot_of(next.vertex).length) continue;
+      ++settled;
+      for (const HierarchyArc& arc : graph_.row(next.vertex)) {
+        const double length = next.key + arc.length;
+        if (length <= longest && taken_[arc.to] == 0) reach(arc.to, length);
+      }
+    }
+  }
+  void reach(VertexId v, double length) {
+    Slot& slot = slot_of(v);
+    if (slot.search != search_) {
+      if (used_ == slots_.size() / 2) return;
+      ++used_;
+      slot = {search_, v, nowhere, unwanted};
+    }
+    if (slot.length <= length) return;
+    slot.length = length;
+    if (length <= slot.wanted) {
+      slot.wanted = unwanted;
+      --missing_;
+    }
+    queue_.push(v, length);
+  }
+
+  const ShrinkingGraph& graph_;
+  std::span<const std::uint8_t> taken_;
+  const Execution& execution_;
+  std::vector<Slot> slots_;  // open addressing, at most half full
+  LazyHeap queue_;
+  std::uint32_t search_ = 0;
+  std::size_t used_ = 0;     // slots
+  std::size_t missing_ = 0;  // targets without a witness
+};
+
+constexpr std::size_t key_grain = std::size_t{1} << 13;
+constexpr std::size_t witness_grain = 1024;  // each chunk makes its scratch
+
+/// Neighbours of one degree go in any order but that of their numbers, which would take out one after the other.
+std::uint32_t scattered(VertexId v) { return static_cast<std::uint32_t>(v * std::uint64_t{0x9e3779b97f4a7c15U} >> 32); }
+
+// What is left may become somewhat denser than the graph was while it is large, and as dense as a few hundred vertices
+// can be in the end; a question may look at so many arcs, a fifth of a millisecond.
+constexpr double most_growth = 1.25;
+constexpr double most_density = 256.0;
+constexpr std::size_t small_rest = std::size_t{1} << 13;
+constexpr std::uint64_t most_looks = 40'000;
+
+/// Four pieces of vertices that follow each other, which lie together in the plane, and the edges within them.
+Graph sample_of(const Graph& graph) {
+  constexpr std::size_t pieces = 4;
+  const std::size_t n = graph.vertex_count();
+  const std::size_t piece = std::min<std::size_t>(n / pieces, 2048);
+  RawVector<EdgeEnd> offsets;
+  RawVector<VertexId> targets;
+  RawVector<double> lengths;
+  offsets.push_back(0);
+  for (std::size_t i = 0; i < pieces; ++i) {
+    const std::size_t begin = i * n / pieces;
+    for (std::size_t v = begin; v < begin + piece; ++v) {
+      const auto row = graph.neighbours(static_cast<VertexId>(v));
+      for (std::size_t k = 0; k < row.size(); ++k) {
+        if (row[k] < begin || row[k] >= begin + piece) continue;
+        targets.push_back(static_cast<VertexId>(row[k] - begin + i * piece));
+        lengths.push_back(graph.lengths(static_cast<VertexId>(v))[k]);
+      }
+      offsets.push_back(static_cast<EdgeEnd>(targets.size()));
+    }
+  }
+  return {std::move(offsets), std::move(targets), std::move(lengths)};
+}
+
+/// Does what is left of a sample grow denser while it shrinks to a quarter?
+bool grows_denser(const Graph& graph, const Execution& execution) {
+  ContractionRounds rounds(sample_of(graph), execution);
+  const double before = rounds.density();
+  const std::size_t last = rounds.left().size() / 4;
+  while (rounds.left().size() > last) rounds.next_round();
+  return rounds.density() > most_growth * before + 1.0;
+}
+
+/// Arcs that a question looks at, of some.
+std::uint64_t looks_of_questions(const Hierarchy& hierarchy, const Execution& execution) {
+  constexpr std::uint64_t questions = 64;
+  HierarchyScratch scratch;
+  HierarchyQuery query(hierarchy, scratch, execution);
+  SequentialRng rng(1);
+  const auto any = [&] { return HierarchyEnd{static_cast<VertexId>(rng.below(hierarchy.vertex_count())), 0.0}; };
+  std::uint64_t looks = 0;
+  for (std::uint64_t i = 0; i < questions; ++i) {
+    const HierarchyEnd start = any();
+    const HierarchyEnd goal = any();
+    query.search({&start, 1}, {&goal, 1}, std::numeric_limits<double>::infinity());
+    looks += query.looks();
+  }
+  return looks / questions;
+}
+
+}  // namespace
+
+ContractionRounds::ContractionRounds(const Graph& graph, const Execution& execution)
+    : execution_(execution), left_(shrinking_graph(graph, execution)) {
+  execution.reserve(graph.vertex_count() * sizeof(level_[0]));
+  level_.assign(graph.vertex_count(), 0);
+}
+
+double ContractionRounds::density() const {
+  return left_.size() == 0 ? 0.0 : static_cast<double>(left_.arc.size()) / static_cast<double>(left_.size());
+}
+
+RawVector<std::uint8_t> ContractionRounds::choose() const {
+  execution_.reserve(left_.size() * (sizeof(std::uint64_t) + 1));
+  RawVector<std::uint64_t> key(left_.size());  // no two are the same, for the scattered numbers aren't
+  for_each_index(left_.size(), key_grain, execution_, [&](std::size_t v) {
+    const VertexId whole = left_.vertex[v];
+    key[v] = std::uint64_t{left_.first[v + 1] - left_.first[v] + level_[whole]} << 32 | scattered(whole);
+  });
+  RawVector<std::uint8_t> taken(left_.size());
+  for_each_index<VertexId>(left_.size(), key_grain, execution_, [&](VertexId v) {
+    const auto row = left_.row(v);
+    const auto is_later = [&](const HierarchyArc& arc) { return key[v] < key[arc.to]; };
+    taken[v] = std::all_of(row.begin(), row.end(), is_later) ? 1 : 0;
+  });
+  return taken;
+}
+
+void ContractionRounds::next_round() {
+  const RawVector<std::uint8_t> taken = choose();
+  const std::size_t chunks = chunk_count(left_.size(), witness_grain);
+  std::vector<RawVector<Shortcut>> shortcuts(chunks);
+  std::vector<TakenOut> gone(chunks);
+  for_chunks(left_.size(), witness_grain, execution_, [&](Range r) {
+    WitnessSearch witness(left_, taken, execution_);
+    TakenOut& out = gone[r.first / witness_grain];
+    for (std::size_t i = r.first; i < r.last; ++i) {
+      if (taken[i] == 0) continue;
+      const auto v = static_cast<VertexId>(i);
+      out.vertex.push_back(left_.vertex[v]);
+      out.arcs.push_back(static_cast<EdgeEnd>(left_.row(v).size()));
+      for (const HierarchyArc& a : left_.row(v)) out.arc.push_back({left_.vertex[a.to], a.middle, a.length});
+      witness.append_shortcuts(v, shortcuts[r.first / witness_grain]);
+    }
+  });
+  for (const TakenOut& part : gone) {
+    part.for_each_row([&](VertexId v, std::span<const HierarchyArc> row) {
+      const std::uint32_t next = level_[v] + 1;
+      for (const HierarchyArc& arc : row) level_[arc.to] = std::max(level_[arc.to], next);
+    });
+  }
+  left_ = shrunk(std::move(left_), taken, shortcuts, execution_);
+  for (TakenOut& part : gone) {
+    if (part.vertex.empty()) continue;
+    execution_.reserve(part.arc.size() * sizeof(HierarchyArc));
+    gone_.push_back(std::move(part));
+  }
+}
+
+Hierarchy ContractionRounds::hierarchy() {
+  Hierarchy all;
+  execution_.reserve((level_.size() + 1) * sizeof(EdgeEnd));
+  all.first.resize(level_.size() + 1);
+  all.first.back() = 0;
+  for_each_index(gone_.size(), 64, execution_, [&](std::size_t i) {
+    gone_[i].for_each_row(
+        [&](VertexId v, std::span<const HierarchyArc> row) { all.first[v] = static_cast<EdgeEnd>(row.size()); });
+  });
+  const std::size_t arcs = scan_rows(all.first, execution_);
+  execution_.reserve(arcs * sizeof(HierarchyArc));
+  all.arcs.resize(arcs);
+  for_each_index(gone_.size(), 64, execution_, [&](std::size_t i) {
+    gone_[i].for_each_row([&](VertexId v, std::span<const HierarchyArc> row) {
+      std::copy(row.begin(), row.end(), all.arcs.begin() + all.first[v]);
+    });
+  });
+  return all;
+}
+
+std::optional<Hierarchy> contract(const Graph& graph, const Execution& execution) {
+  if (grows_denser(graph, execution)) return std::nullopt;
+  ContractionRounds rounds(graph, execution);
+  const double densest = 2.0 * rounds.density() + 8.0;
+  while (rounds.left().size() > 0) {
+    rounds.next_round();
+    const double limit = rounds.left().size() > small_rest ? densest : most_density;
+    if (rounds.density() > limit) return std::nullopt;
+  }
+  Hierarchy hierarchy = rounds.hierarchy();
+  if (looks_of_questions(hierarchy, execution) > most_looks) return std::nullopt;
+  return hierarchy;
 }
 
 }  // namespace warren

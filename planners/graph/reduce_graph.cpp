@@ -9,34 +9,6 @@
 #include "parallel/sort.hpp"
 
 namespace warren {
-namespace {
-
-/// Neighbours that are left, as far as it matters: `count` is exact up to 2, `last` is one of them.
-struct Left {
-  unsigned count = 0;
-  VertexId last = no_vertex;
-};
-
-template <class IsLeft>
-Left left_of(std::span<const VertexId> row, const IsLeft& is_left) {
-  Left left;
-  if (row.size() <= 8) {  // without branches: whether a neighbour is left is as good as random
-    for (const VertexId w : row) {
-      const bool is = is_left(w);
-      left.count += is ? 1U : 0U;
-      left.last = is ? w : left.last;
-    }
-    return left;
-  }
-  for (const VertexId w : row) {
-    if (!is_left(w)) continue;
-    left.last = w;
-    if (++left.count == 3) break;
-  }
-  return left;
-}
-
-}  // namespace
 
 KeyCoverView::KeyCoverView(const Graph& graph, std::span<const VertexId> keep, Peeling peeling,
                            const Execution& execution)
@@ -97,9 +69,15 @@ KeyCoverView::Peeled KeyCoverView::peel_block(Range block) {
 void KeyCoverView::peel_across(VertexId seed, const Execution& execution) {
   std::size_t steps = 0;
   for (VertexId v = seed; v != no_vertex && std::atomic_ref(left_[v]).load() == 1;) {
-    const Left left = left_of(graph_->neighbours(v), [&](VertexId w) { return std::atomic_ref(left_[w]).load() != 0; });
-    if (left.count > 1 || std::atomic_ref(left_[v]).exchange(0) == 0) break;
-    v = left.last;
+    unsigned left = 0;
+    VertexId last = no_vertex;
+    for (const VertexId w : graph_->neighbours(v)) {
+      if (std::atomic_ref(left_[w]).load() == 0) continue;
+      last = w;
+      if (++left > 1) return;
+    }
+    if (std::atomic_ref(left_[v]).exchange(0) == 0) return;
+    v = last;
     if (++steps % detail::steps_per_poll == 0) execution.check();
   }
 }
@@ -108,22 +86,18 @@ void KeyCoverView::mark_keys(Range block, Peeling peeling) {
   const auto first = static_cast<VertexId>(block.first);
   const auto size = static_cast<VertexId>(block.size());
   const bool within = peeling == Peeling::within_blocks;
-  const auto ends_chains = [&](std::span<const VertexId> row) {
-    unsigned left = 0;
-    bool leaves = false;
-    for (const VertexId w : row) {
-      left += left_[w] != 0 ? 1U : 0U;
-      leaves |= within && w - first >= size;
-    }
-    return left != 2 || leaves;
-  };
   for (std::size_t word = block.first / 64; word * 64 < block.last; ++word) {
     std::uint64_t bits = 0;
     const auto end = static_cast<VertexId>(std::min(block.last, word * 64 + 64));
     for (auto v = static_cast<VertexId>(word * 64); v < end; ++v) {
       if (left_[v] == 0) continue;
-      const bool is_key = left_[v] == 2 || ends_chains(graph_->neighbours(v));
-      bits |= std::uint64_t{is_key} << v % 64;
+      unsigned left = 0;
+      bool is_key = left_[v] == 2;
+      for (const VertexId w : graph_->neighbours(v)) {
+        left += left_[w] != 0 ? 1U : 0U;
+        is_key |= within && w - first >= size;
+      }
+      bits |= std::uint64_t{is_key || left != 2} << v % 64;
     }
     keys_[word] = bits;
     rank_[word] = static_cast<VertexId>(std::popcount(bits));
@@ -157,22 +131,6 @@ ReducedGraphView::ReducedGraphView(KeyCoverView cover, const std::vector<Part>& 
   reduced_ = Graph(std::move(degrees), std::move(targets), std::move(lengths));
 }
 
-/// Appends the chain from one key to another, without the first.
-void ReducedGraphView::expand_step(VertexId from, VertexId to, RawVector<VertexId>& path,
-                                   const Execution& execution) const {
-  const std::span<const VertexId> row = reduced_.neighbours(from);
-  const auto at = static_cast<std::size_t>(std::lower_bound(row.begin(), row.end(), to) - row.begin());
-  const auto row_begin = static_cast<std::size_t>(row.data() - reduced_.neighbours(0).data());
-  VertexId before = vertex_of(from);
-  VertexId v = via_[row_begin + at];
-  while (!cover_.is_key(v)) {
-    if (path.size() % detail::steps_per_poll == 0) execution.check();
-    path.push_back(v);
-    v = cover_.next_on_chain(std::exchange(before, v), v);
-  }
-  path.push_back(v);
-}
-
 RawVector<VertexId> ReducedGraphView::expand(std::span<const VertexId> keys, const Execution& execution) const {
   if (keys.empty()) return {};
   constexpr std::size_t keys_a_part = 1024;
@@ -181,7 +139,16 @@ RawVector<VertexId> ReducedGraphView::expand(std::span<const VertexId> keys, con
     RawVector<VertexId> part;
     if (r.first == 0) part.push_back(vertex_of(keys.front()));
     for (std::size_t i = std::max<std::size_t>(r.first, 1); i < r.last; ++i) {
-      expand_step(keys[i - 1], keys[i], part, execution);
+      const std::span<const VertexId> row = reduced_.neighbours(keys[i - 1]);
+      const auto at = static_cast<std::size_t>(std::lower_bound(row.begin(), row.end(), keys[i]) - row.begin());
+      VertexId before = vertex_of(keys[i - 1]);
+      VertexId v = via_[reduced_.first_end(keys[i - 1]) + at];
+      while (!cover_.is_key(v)) {
+        if (part.size() % detail::steps_per_poll == 0) execution.check();
+        part.push_back(v);
+        v = cover_.next_on_chain(std::exchange(before, v), v);
+      }
+      part.push_back(v);
     }
     return part;
   });

@@ -110,8 +110,6 @@ class ReducedGraphView {
   RawVector<VertexId> expand(std::span<const VertexId> keys, const Execution& execution) const;
 
  private:
-  void expand_step(VertexId from, VertexId to, RawVector<VertexId>& path, const Execution& execution) const;
-
   KeyCoverView cover_;
   std::size_t cycles_ = 0;
   Graph reduced_;
@@ -306,7 +304,13 @@ class TwiceReducedGraphView {
       : blocks_(
             std::make_unique<ReducedGraphView>(reduce_graph(graph, keep, length, execution, Peeling::within_blocks))),
         components_(components(blocks_->graph(), execution)),
-        whole_(reduce_graph(blocks_->graph(), keys_of(keep), EdgeLengths{blocks_->graph()}, execution)) {}
+        whole_(reduce_graph(
+            blocks_->graph(), keys_of(keep),
+            [&left = blocks_->graph()](VertexId v, VertexId w) {
+              const std::span<const VertexId> row = left.neighbours(v);
+              return left.lengths(v)[static_cast<std::size_t>(std::find(row.begin(), row.end(), w) - row.begin())];
+            },
+            execution)) {}
 
   const Graph& graph() const { return whole_.graph(); }  ///< vertices are numbers of keys
   VertexId vertex_of(VertexId key) const { return blocks_->vertex_of(whole_.vertex_of(key)); }
@@ -320,13 +324,6 @@ class TwiceReducedGraphView {
   }
 
  private:
-  struct EdgeLengths {
-    const Graph& graph;
-    double operator()(VertexId v, VertexId w) const {
-      const std::span<const VertexId> row = graph.neighbours(v);
-      return graph.lengths(v)[static_cast<std::size_t>(std::find(row.begin(), row.end(), w) - row.begin())];
-    }
-  };
   std::vector<VertexId> keys_of(std::span<const VertexId> vertices) const {
     std::vector<VertexId> keys;
     for (const VertexId v : vertices) keys.push_back(blocks_->key_of(v));

@@ -209,20 +209,11 @@ void check_parts(const RoadmapParts& parts, const std::string& where, const Exec
 }
 
 RawVector<VertexId> free_components(const RoadmapParts& parts, const Execution& execution) {
-  constexpr std::size_t grain = std::size_t{1} << 14;
-  const std::size_t n = parts.vertex_count();
-  execution.reserve(n * sizeof(VertexId));
-  RawVector<VertexId> parent(n);
-  for_each_index<VertexId>(n, grain, execution, [&](VertexId v) { parent[v] = v; });
-  const UnionForest forest(parent);
-  for_each_index<VertexId>(n, grain, execution, [&](VertexId v) {
+  return joined_labels(parts.vertex_count(), execution, [&](VertexId v, const auto& join) {
     for (std::size_t end = parts.first[v]; end < parts.first[v + 1]; ++end) {
-      if (parts.state_of_end(end) == EdgeState::free) forest.join(v, parts.to[end]);
+      if (parts.state_of_end(end) == EdgeState::free) join(parts.to[end]);
     }
   });
-  RawVector<VertexId> label(n);
-  for_each_index<VertexId>(n, grain, execution, [&](VertexId v) { label[v] = forest.root(v); });
-  return label;
 }
 
 }  // namespace warren

@@ -10,30 +10,39 @@
 namespace warren {
 namespace {
 
+/// Of the way to `to`; zero where there is none.
+struct EstimateTo {
+  VertexDistance estimate;
+  VertexId to;
+  double operator()(VertexId v) const { return to != no_vertex ? estimate(v, to) : 0.0; }
+};
+EstimateTo estimate_to(const ImplicitSearch& asked, VertexId to) {
+  return {asked.estimate, asked.informed ? to : no_vertex};
+}
+
 /// NBA* (core/search/bidirectional_search.hpp), a thread an end: 17 bytes a vertex and end, and the queues.
-/// neighbours[i]: of the side that begins at roots[i]; the two are called from two threads at once. estimate_to(root)
-/// gives a consistent estimate of the way to a root. states[i] keeps what side i has reached. Throws Stopped at the
-/// deadline.
-template <class Neighbours, class EstimateTo>
-SearchResult search_from_both_ends(QueueKind kind, std::size_t vertex_count, const std::array<VertexId, 2>& roots,
-                                   const std::array<Neighbours, 2>& neighbours, const EstimateTo& estimate_to,
-                                   const std::array<SearchState*, 2>& states, const Execution& execution) {
-  using Estimate = decltype(estimate_to(no_vertex));
+/// neighbours[i]: of the side that begins at roots[i]; the two are called from two threads at once. states[i] keeps
+/// what side i has reached. Throws Stopped at the deadline.
+template <class Neighbours>
+SearchResult search_from_both_ends(const std::array<Neighbours, 2>& neighbours, const std::array<VertexId, 2>& roots,
+                                   const ImplicitSearch& asked, const std::array<SearchState*, 2>& states) {
   constexpr std::size_t bytes_a_vertex = 36;
-  if (states[0]->vertex_count() < vertex_count) execution.reserve(vertex_count * bytes_a_vertex);
-  const std::array<Estimate, 2> to_root{estimate_to(roots[0]), estimate_to(roots[1])};
-  const SearchResult found = with_queue(kind, 0, execution, [&](const auto& empty_queue) {
+  const std::size_t n = asked.vertex_count;
+  const Execution& execution = asked.execution;
+  if (states[0]->vertex_count() < n) execution.reserve(n * bytes_a_vertex);
+  const std::array<EstimateTo, 2> to_root{estimate_to(asked, roots[0]), estimate_to(asked, roots[1])};
+  const SearchResult found = with_queue(asked.queue, 0, execution, [&](const auto& empty_queue) {
     using Queue = std::remove_cvref_t<decltype(empty_queue)>;
     struct alignas(bytes_apart) Side {
       Queue queue;
-      std::optional<SearchSide<Queue, Neighbours, Estimate, Estimate>> search;
+      std::optional<SearchSide<Queue, Neighbours, EstimateTo, EstimateTo>> search;
     };
     std::array<Side, 2> sides{Side{empty_queue, {}}, Side{empty_queue, {}}};
     // Both at once: the first touch of their memory is half of the cost. Few vertices do not repay a thread's start.
-    const std::size_t grain = vertex_count < fewest_for_both_ends ? 2 : 1;
+    const std::size_t grain = n < fewest_for_both_ends ? 2 : 1;
     for_each_index(2, grain, execution, [&](std::size_t i) {
-      sides[i].search.emplace(roots[i], vertex_count, neighbours[i], to_root[1 - i], to_root[i], sides[i].queue,
-                              *states[i], [&] { execution.check(); });
+      sides[i].search.emplace(roots[i], n, neighbours[i], to_root[1 - i], to_root[i], sides[i].queue, *states[i],
+                              [&] { execution.check(); });
     });
     return bidirectional(*sides[0].search, *sides[1].search, execution);
   });
@@ -62,34 +71,23 @@ struct GraphEdges {
   }
 };
 
-/// A* or Dijkstra. estimate_to(root) gives a consistent estimate of the way to start or goal.
-template <class EstimateTo>
-SearchResult search_best(const Graph& graph, VertexId start, VertexId goal, const EstimateTo& estimate_to,
+/// A* or Dijkstra. `estimate`: between vertices of this graph, whatever `asked` says of another one.
+SearchResult search_best(const Graph& graph, VertexId start, VertexId goal, const VertexDistance& estimate,
                          const RoadmapSearch& asked) {
   const GraphEdges neighbours{graph, asked.length};
-  const Execution& execution = asked.execution;
-  const std::size_t n = graph.vertex_count();
+  const ImplicitSearch best{estimate, asked.search == SearchKind::astar, asked.queue, graph.vertex_count(),
+                            asked.execution};
   std::array<SearchState, 2> states;
   SearchResult found;
-  if (n >= fewest_for_both_ends && asked.estimate_fits) {
-    found = search_from_both_ends<GraphEdges>(asked.queue, n, {start, goal}, {neighbours, neighbours}, estimate_to,
-                                              {&states[0], &states[1]}, execution);
+  if (best.vertex_count >= fewest_for_both_ends && asked.estimate_fits) {
+    found = search_from_both_ends<GraphEdges>({neighbours, neighbours}, {start, goal}, best, {&states[0], &states[1]});
   } else {
-    found = search_best_first(asked.queue, n, start, goal, neighbours, estimate_to(goal), states[0], execution);
+    found = search_best_first(best.queue, best.vertex_count, start, goal, neighbours, estimate_to(best, goal),
+                              states[0], best.execution);
   }
-  if (found.status == SearchStatus::stopped) execution.check();
+  if (found.status == SearchStatus::stopped) asked.execution.check();
   if (asked.tree != nullptr) *asked.tree = search_trees(states[0], states[1]);
   return found;
-}
-
-/// estimate_to() of search_best, of graph and reduced graph alike: vertex_of(v) is the vertex that asked knows.
-template <class VertexOf>
-auto estimates(const RoadmapSearch& asked, const VertexOf& vertex_of) {
-  return [&asked, &vertex_of](VertexId root) {
-    const bool informed = asked.search == SearchKind::astar && root != no_vertex;
-    const VertexId to = informed ? vertex_of(root) : no_vertex;
-    return [&asked, &vertex_of, to](VertexId v) { return to != no_vertex ? asked.estimate(vertex_of(v), to) : 0.0; };
-  };
 }
 
 /// A search tree over keys as the tree over the vertices on their chains.
@@ -110,16 +108,6 @@ SearchResult search_blindly(const Graph& graph, const RoadmapSearch& asked) {
   if (found.status == SearchStatus::stopped) asked.execution.check();
   if (asked.tree != nullptr) *asked.tree = search_tree(state);
   return found;
-}
-
-/// Of the way to `to`; zero where there is none.
-struct EstimateTo {
-  VertexDistance estimate;
-  VertexId to;
-  double operator()(VertexId v) const { return to != no_vertex ? estimate(v, to) : 0.0; }
-};
-EstimateTo estimate_to(const ImplicitSearch& asked, VertexId to) {
-  return {asked.estimate, asked.informed ? to : no_vertex};
 }
 
 }  // namespace
@@ -161,14 +149,15 @@ std::optional<TwiceReducedGraphView> reduced_for_search(const Graph& graph, cons
 
 SearchResult search_roadmap(const Graph& graph, const RoadmapSearch& asked) {
   if (!has_queue(asked.search)) return search_blindly(graph, asked);
-  const auto itself = [](VertexId v) { return v; };
-  return search_best(graph, asked.start, asked.goal, estimates(asked, itself), asked);
+  return search_best(graph, asked.start, asked.goal, asked.estimate, asked);
 }
 
 SearchResult search_roadmap(const TwiceReducedGraphView& reduced, const RoadmapSearch& asked) {
-  const auto vertex_of = [&](VertexId key) { return reduced.vertex_of(key); };
+  const auto estimate = [&](VertexId key, VertexId to) {
+    return asked.estimate(reduced.vertex_of(key), reduced.vertex_of(to));
+  };
   SearchResult found = search_best(reduced.graph(), reduced.key_of(asked.start), reduced.key_of(asked.goal),
-                                   estimates(asked, vertex_of), asked);
+                                   VertexDistance(estimate), asked);
   found.path = reduced.expand(found.path, asked.execution);
   if (asked.tree != nullptr) *asked.tree = expanded_tree(reduced, *asked.tree, asked.execution);
   return found;
@@ -183,9 +172,7 @@ SearchResult search_implicit(const AnyNeighbours& neighbours, VertexId from, Ver
 SearchResult search_implicit_from_both_ends(const std::array<AnyNeighbours, 2>& neighbours,
                                             const std::array<VertexId, 2>& ends, const ImplicitSearch& asked,
                                             const std::array<SearchState*, 2>& states) {
-  return search_from_both_ends<AnyNeighbours>(
-      asked.queue, asked.vertex_count, ends, neighbours, [&](VertexId to) { return estimate_to(asked, to); }, states,
-      asked.execution);
+  return search_from_both_ends(neighbours, ends, asked, states);
 }
 
 }  // namespace warren

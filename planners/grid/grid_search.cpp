@@ -85,8 +85,7 @@ auto free_distance_to(VertexId goal, const FreeCells& cells, Diagonal diagonal) 
 /// The steps of a cell, as a search asks for them.
 class Steps {
  public:
-  Steps(const FreeCells& cells, Diagonal diagonal) : Steps(cells, diagonal, rule_of(diagonal)) {}
-  Steps(const FreeCells& cells, Diagonal diagonal, StepRule rule) : cells_(cells), allowed_(allowed_steps(rule)) {
+  Steps(const FreeCells& cells, StepRule rule, Diagonal diagonal) : cells_(cells), allowed_(allowed_steps(rule)) {
     const auto stride = static_cast<std::int64_t>(cells.stride());
     for (unsigned s = 0; s < cell_steps.size(); ++s) {
       offsets_[s] = static_cast<VertexId>(cell_steps[s][1] * stride + cell_steps[s][0]);  // wraps around for steps back
@@ -169,7 +168,7 @@ class JumpPoints {
     for (unsigned rest = directions(v, parent); rest != 0; rest &= rest - 1) {
       const auto s = static_cast<unsigned>(std::countr_zero(rest));
       const auto [dx, dy] = cell_steps[s];
-      const VertexId w = jump(v, dx, dy, goal);
+      const VertexId w = is_diagonal(s) ? jump_diagonal(v, dx, dy, goal) : jump_straight(v, dx, dy, goal);
       if (w != no_vertex) visit(w, distance(v, w));
     }
   }
@@ -211,10 +210,6 @@ class JumpPoints {
       kept |= 1U << (dx != 0 ? step_of(dx, side) : step_of(side, dy));
     }
     return allowed & kept;
-  }
-
-  VertexId jump(VertexId v, int dx, int dy, VertexId goal) const {
-    return dx != 0 && dy != 0 ? jump_diagonal(v, dx, dy, goal) : jump_straight(v, dx, dy, goal);
   }
 
   VertexId jump_straight(VertexId v, int dx, int dy, VertexId goal) const {
@@ -269,7 +264,7 @@ bool has_diagonal_steps(const Bitmap& blocked) {
 
 bool cells_connect(const Bitmap& blocked, Cell start, Cell goal, bool squeezing, const Execution& execution) {
   const FreeCells cells(blocked);
-  const Steps steps(cells, Diagonal::unit, squeezing ? StepRule::eight_squeezing : StepRule::four);
+  const Steps steps(cells, squeezing ? StepRule::eight_squeezing : StepRule::four, Diagonal::unit);
   const VertexId from = cells.number(start);
   const VertexId to = cells.number(goal);
   if (!cells.is_free(from) || !cells.is_free(to)) return false;
@@ -293,7 +288,7 @@ struct GridSearch::Scratch {
   SearchResult best_first_search(VertexId start, VertexId goal, const GridSearchOptions& options,
                                  const Execution& execution) {
     const auto should_stop = [&] { return execution.should_stop(); };
-    const Steps steps(cells, options.diagonal);
+    const Steps steps(cells, rule_of(options.diagonal), options.diagonal);
     if (options.method == GridMethod::bfs) return breadth_first_over(cells, steps, start, goal, execution);
     prepare(execution);
     if (options.method == GridMethod::dijkstra) {

@@ -29,7 +29,13 @@ class LayerSteps {
       const bool allowed = !is_diagonal(s) || options.diagonal != Diagonal::none;
       if (allowed) steps_.push_back(s);
     }
-    list_headings();
+    steps_facing_.resize(layers_.angles);
+    constexpr std::array<unsigned, 8> eighth{5, 6, 7, 4, 0, 3, 2, 1};  // of a full turn: each step's direction
+    for (const unsigned s : steps_) {
+      if (std::uint64_t{eighth[s]} * layers_.angles % 8 == 0) {
+        steps_facing_[std::uint64_t{eighth[s]} * layers_.angles / 8].push_back(s);
+      }
+    }
   }
 
   double cost(unsigned step) const { return costs_[step]; }
@@ -66,23 +72,12 @@ class LayerSteps {
   static constexpr std::array<Forward, 8> forward_of{
       {{2, true}, {1, true}, {3, true}, {0, true}, {0, false}, {3, false}, {1, false}, {2, false}}};
 
-  /// At which headings each step faces its direction: eighths of a full turn.
-  void list_headings() {
-    steps_facing_.resize(layers_.angles);
-    constexpr std::array<unsigned, 8> eighth{5, 6, 7, 4, 0, 3, 2, 1};
-    for (const unsigned s : steps_) {
-      if (std::uint64_t{eighth[s]} * layers_.angles % 8 == 0) {
-        steps_facing_[std::uint64_t{eighth[s]} * layers_.angles / 8].push_back(s);
-      }
-    }
-  }
-
   const HeadingLayers& layers_;
   bool face_motion_;
   double turn_cost_;
   std::array<double, 8> costs_{};
   std::vector<unsigned> steps_;
-  std::vector<std::vector<unsigned>> steps_facing_;
+  std::vector<std::vector<unsigned>> steps_facing_;  // by heading: those of its direction
 };
 
 /// What is left to pay at least from each position: a Dijkstra from the goals over positions free at some heading.
@@ -143,7 +138,9 @@ class LayerAStar {
     turn_costs_.assign(layers_.angles, std::numeric_limits<double>::infinity());
     for (std::uint32_t k = 0; k < layers_.angles; ++k) {
       for (std::uint32_t to = 0; to < layers_.angles; ++to) {
-        if (is_wanted[to] != 0) turn_costs_[k] = std::min(turn_costs_[k], cost_of_turning(k, to));
+        if (is_wanted[to] == 0) continue;
+        const std::uint32_t apart = k > to ? k - to : to - k;
+        turn_costs_[k] = std::min(turn_costs_[k], steps_.turn_cost() * std::min(apart, layers_.angles - apart));
       }
     }
   }
@@ -186,10 +183,6 @@ class LayerAStar {
   VertexId behind_goals() const { return static_cast<VertexId>(layers_.states() + 1); }
   VertexId number(const LayerState& s) const {
     return static_cast<VertexId>((std::uint64_t{s.j} * layers_.width + s.i) * layers_.angles + s.k);
-  }
-  double cost_of_turning(std::uint32_t from, std::uint32_t to) const {
-    const std::uint32_t apart = from > to ? from - to : to - from;
-    return steps_.turn_cost() * std::min(apart, layers_.angles - apart);
   }
 
   template <class Visit>

@@ -16,7 +16,7 @@
 #include "planners/graph/assemble_graph.hpp"
 #include "planners/graph/components.hpp"
 #include "planners/graph/no_path.hpp"
-#include "planners/graph/queue_choice.hpp"
+#include "planners/graph/roadmap_search.hpp"
 #include "spatial/maps/free_cells.hpp"
 
 namespace warren {
@@ -238,11 +238,6 @@ class SkeletonPlan {
   VertexId start() const { return cells_->number(start_.x, start_.y); }
   VertexId goal() const { return cells_->number(goal_.x, goal_.y); }
   std::uint32_t squared(VertexId v) const { return field_.squared(cells_->cell(v).x, cells_->cell(v).y); }
-  double length(VertexId v, VertexId w) const {
-    const Cell a = cells_->cell(v);
-    const Cell b = cells_->cell(w);
-    return a.x != b.x && a.y != b.y ? std::numbers::sqrt2 : 1.0;
-  }
   void thin() {
     const StageTimer timer(execution_, "skeleton", plan_.seconds.graph, blocked_.size());
     const std::array<Cell, 2> kept{start_, goal_};
@@ -332,8 +327,25 @@ class SkeletonPlan {
       const std::vector<std::uint32_t> wide = widths();
       edges_ = at_least(edges_, wide, widest(wide));
     }
-    const SearchResult result = found(assemble_graph(cells_->size(), edges_, execution_));
-    if (result.status == SearchStatus::stopped) execution_.check();
+    const auto length = [&](VertexId v, VertexId w) {
+      const Cell a = cells_->cell(v);
+      const Cell b = cells_->cell(w);
+      return a.x != b.x && a.y != b.y ? std::numbers::sqrt2 : 1.0;
+    };
+    const auto estimate = [&](VertexId v, VertexId to) {
+      const Cell a = cells_->cell(v);
+      const Cell b = cells_->cell(to);
+      return portable::hypot(static_cast<double>(a.x) - b.x, static_cast<double>(a.y) - b.y);
+    };
+    const RoadmapSearch asked{.start = start(),
+                              .goal = goal(),
+                              .length = VertexDistance(length),
+                              .estimate = VertexDistance(estimate),
+                              .search = options_.search,
+                              .queue = options_.queue,
+                              .execution = execution_,
+                              .estimate_fits = false};  // from the start alone
+    const SearchResult result = search_roadmap(assemble_graph(cells_->size(), edges_, execution_), asked);
     plan_.expanded = result.expanded;
     if (result.status != SearchStatus::found) return;
     plan_.outcome = Outcome::solved;
@@ -343,23 +355,6 @@ class SkeletonPlan {
       least = std::min(least, squared(v));
     }
     plan_.clearance = 0.5 * std::sqrt(least);
-  }
-
-  SearchResult found(const Graph& graph) const {
-    SearchState state;
-    if (!has_queue(options_.search)) {
-      return search_blindly(options_.search, graph, start(), goal(), state, execution_);
-    }
-    const auto neighbours = [&](VertexId v, const auto& visit) {
-      for (const VertexId w : graph.neighbours(v)) visit(w, length(v, w));
-    };
-    const bool informed = options_.search == SearchKind::astar;
-    const auto estimate = [&](VertexId v) {
-      const Cell c = cells_->cell(v);
-      return informed ? portable::hypot(static_cast<double>(c.x) - goal_.x, static_cast<double>(c.y) - goal_.y) : 0.0;
-    };
-    return search_best_first(options_.queue, graph.vertex_count(), start(), goal(), neighbours, estimate, state,
-                             execution_);
   }
 
   Cell start_, goal_;

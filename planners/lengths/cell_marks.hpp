@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "planners/lengths/array_or_view.hpp"
 #include "planners/lengths/lattice_passages.hpp"
 
 namespace warren {
@@ -141,25 +140,22 @@ class TileClimb : WalkedCells {
 
   /// False where the way ends: at the core, or where it would leave the tile.
   bool step() {
-    const std::uint64_t* const row = words_ + std::size_t{at_ >> row_shift} * mark_word::count;
-    if ((row[mark_word::core] >> (at_ & col_bits) & 1U) != 0) return false;
-    const std::uint32_t next = at_ + motion(row);
+    if (at_core()) return false;
+    const std::uint32_t next = at_ + motion();
     if ((next & guards) != 0) return false;
     at_ = next;
     return true;
   }
   LatticePlace place() const { return first_ + in_tile(at_); }
-  bool at_core() const {
-    return (words_[std::size_t{at_ >> row_shift} * mark_word::count + mark_word::core] >> (at_ & col_bits) & 1U) != 0;
-  }
+  bool at_core() const { return mark(mark_word::core) != 0; }
 
  private:
-  /// Right 1, up 128, left -1, down -128.
-  std::uint32_t motion(const std::uint64_t* row) const {
-    const auto low = static_cast<std::uint32_t>(row[mark_word::low] >> (at_ & col_bits)) & 1U;
-    const auto high = static_cast<std::uint32_t>(row[mark_word::high] >> (at_ & col_bits)) & 1U;
-    return (1U - 2U * high) << (row_shift * low);
+  std::uint32_t mark(std::size_t word) const {
+    const std::uint64_t* const row = words_ + std::size_t{at_ >> row_shift} * mark_word::count;
+    return static_cast<std::uint32_t>(row[word] >> (at_ & col_bits)) & 1U;
   }
+  /// Right 1, up 128, left -1, down -128.
+  std::uint32_t motion() const { return (1U - 2U * mark(mark_word::high)) << (row_shift * mark(mark_word::low)); }
 
   LatticePlace first_;
   const std::uint64_t* words_;

@@ -417,18 +417,10 @@ RawVector<std::uint64_t> mark_words(const RawVector<std::uint8_t>& peeled, const
   constexpr std::size_t grain = 1024;
   for_each_index(rows, grain, execution, [&](std::size_t row) {
     const std::uint8_t* const bytes = peeled.data() + row * 64;
-    std::uint64_t low = 0;
-    std::uint64_t high = 0;
-    std::uint64_t off = 0;
-    for (unsigned i = 0; i < 64; ++i) {
-      low |= std::uint64_t{bytes[i] >> 4 & 1U} << i;
-      high |= std::uint64_t{bytes[i] >> 5 & 1U} << i;
-      off |= std::uint64_t{bytes[i] >> 6 & 1U} << i;
-    }
     std::uint64_t* const out = words.data() + row * mark_word::count;
-    out[mark_word::low] = low;
-    out[mark_word::high] = high;
-    out[mark_word::core] = ~off;
+    out[mark_word::low] = gathered_bits(bytes, peel_bit::direction_shift);
+    out[mark_word::high] = gathered_bits(bytes, peel_bit::direction_shift + 1);
+    out[mark_word::core] = ~gathered_bits(bytes, 6);  // peel_bit::peeled
   });
   return words;
 }

@@ -234,10 +234,9 @@ class RegionCut {
 /// A region of the upper levels, and what became of it.
 struct LargeRegion {
   PlanarRegion region;
-  RawVector<JunctionId> members;      // of its cut
   std::vector<PlanarRegion> parts;    // until they have numbers
   std::vector<std::size_t> children;  // their numbers
-  Dissection whole;                   // where it was small enough to be done at once
+  Dissection done;                    // its cut, or all of it where it was small enough to be done at once
 };
 
 /// Cuts regions, and splits what is left into its connected parts. Scratch of one thread.
@@ -351,10 +350,12 @@ class Dissector {
   void open_whole() {
     PlanarRegion whole;
     whole.junction.resize(graph_.size());
-    for (JunctionId v = 0; v < graph_.size(); ++v) whole.junction[v] = v;
     whole.twin = graph_.twin;
     whole.slots.resize(graph_.size());
-    for (JunctionId v = 0; v < graph_.size(); ++v) whole.slots[v] = slots_of(graph_, v);
+    for (JunctionId v = 0; v < graph_.size(); ++v) {
+      whole.junction[v] = v;
+      whole.slots[v] = slots_of(graph_, v);
+    }
     const RawVector<CutSide> nothing_cut(graph_.size(), CutSide::outside);
     for (PlanarRegion& part : RegionDivision(execution_).split(whole, nothing_cut)) {
       roots_.push_back(large_.size());
@@ -365,8 +366,10 @@ class Dissector {
   void divide(LargeRegion& large) const {
     const PagePool pages;  // what is cut leaves room for its parts
     RegionDivision division(execution_);
-    if (large.region.size() <= task_) return cut_down(std::move(large.region), division, large.whole);
-    large.parts = division.divide(std::move(large.region), large.members);
+    if (large.region.size() <= task_) return cut_down(std::move(large.region), division, large.done);
+    large.parts = division.divide(std::move(large.region), large.done.member);
+    large.done.node.push_back(
+        {static_cast<std::uint32_t>(large.done.member.size()), static_cast<std::uint32_t>(large.parts.size()), 0});
   }
 
   void number_parts(std::size_t large) {
@@ -395,16 +398,10 @@ class Dissector {
   /// Children first. Regions of the upper levels are cut a few dozen deep at most.
   void list(std::size_t number) {  // NOLINT(misc-no-recursion)
     for (const std::size_t child : large_[number].children) list(child);
-    LargeRegion& large = large_[number];
-    const Dissection& whole = large.whole;
-    result_.node.insert(result_.node.end(), whole.node.begin(), whole.node.end());
-    result_.member.insert(result_.member.end(), whole.member.begin(), whole.member.end());
-    if (whole.node.empty()) {
-      result_.member.insert(result_.member.end(), large.members.begin(), large.members.end());
-      result_.node.push_back(
-          {static_cast<std::uint32_t>(large.members.size()), static_cast<std::uint32_t>(large.children.size()), 0});
-    }
-    large = {};
+    const Dissection& done = large_[number].done;
+    result_.node.insert(result_.node.end(), done.node.begin(), done.node.end());
+    result_.member.insert(result_.member.end(), done.member.begin(), done.member.end());
+    large_[number] = {};
   }
 
   const CoreGraph& graph_;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstring>
 #include <string>
-#include <tuple>
 #include <utility>
 
 #include "core/base/error.hpp"
@@ -60,24 +59,6 @@ std::array<std::uint64_t, 4> LatticePassages::open_words(std::uint32_t col, std:
 
 namespace {
 
-/// The lowest bits of eight bytes, the first byte's lowest.
-std::uint64_t lowest_bits(std::uint64_t eight) { return (eight & 0x0101010101010101U) * 0x0102040810204080U >> 56; }
-
-/// Bits 0 and 1 of up to 64 bytes, as two words.
-std::pair<std::uint64_t, std::uint64_t> right_and_up(const std::uint8_t* bytes, std::size_t count) {
-  std::array<std::uint8_t, 64> line{};
-  std::memcpy(line.data(), bytes, count);
-  std::uint64_t right = 0;
-  std::uint64_t up = 0;
-  for (unsigned i = 0; i < 64; i += 8) {
-    std::uint64_t eight;
-    std::memcpy(&eight, line.data() + i, 8);
-    right |= lowest_bits(eight) << i;
-    up |= lowest_bits(eight >> 1) << i;
-  }
-  return {right, up};
-}
-
 /// Tiles are whole words wide, so each word belongs to one of them.
 void pack(const TilePlane& plane, const TileGrid& grid, PassageWords& words) {
   static_assert(plane_bit::right == 1 && plane_bit::up == 2);
@@ -86,8 +67,10 @@ void pack(const TilePlane& plane, const TileGrid& grid, PassageWords& words) {
   for (int row = 0; row < plane.height(); ++row) {
     std::size_t word = (grid.first_row(plane.tile()) + static_cast<std::size_t>(row)) * stride + first_col / 64;
     for (int col = 0; col < plane.width(); col += 64, ++word) {
-      const auto count = static_cast<std::size_t>(std::min(64, plane.width() - col));
-      std::tie(words.right[word], words.up[word]) = right_and_up(plane.at(col, row), count);
+      std::array<std::uint8_t, 64> line{};
+      std::memcpy(line.data(), plane.at(col, row), static_cast<std::size_t>(std::min(64, plane.width() - col)));
+      words.right[word] = gathered_bits(line.data(), 0);
+      words.up[word] = gathered_bits(line.data(), 1);
     }
   }
 }

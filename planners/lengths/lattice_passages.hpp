@@ -7,18 +7,52 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <optional>
 #include <span>
+#include <type_traits>
 #include <utility>
 
 #include "core/base/raw_vector.hpp"
 #include "core/base/types.hpp"
 #include "core/plane/wall_set.hpp"
 #include "core/run/execution.hpp"
+#include "parallel/once.hpp"
 #include "planners/graph/roadmap_options.hpp"
-#include "planners/lengths/array_or_view.hpp"
 
 namespace warren {
+
+/// A constant array of plain elements that is either owned or a view of somebody else's memory, say of a mapped file:
+/// what reads it can't tell. Moves keep the elements where they are; copies aren't made by accident. A view must not
+/// outlive what it looks at.
+template <class T>
+class ArrayOrView {
+  static_assert(std::is_trivially_copyable_v<T>);
+
+ public:
+  ArrayOrView() = default;
+  explicit ArrayOrView(RawVector<T> elements) : own_(std::move(elements)), all_(own_) {}
+  explicit ArrayOrView(std::span<const T> elements, FirstLook first_look = {})
+      : all_(elements), first_look_(first_look) {}
+  /// What was moved from may be assigned to or destroyed, nothing else.
+  ArrayOrView(ArrayOrView&&) noexcept = default;
+  ArrayOrView& operator=(ArrayOrView&&) noexcept = default;
+  ~ArrayOrView() = default;
+
+  std::size_t size() const { return all_.size(); }
+  bool empty() const { return all_.empty(); }
+  const T* data() const { return all_.data(); }
+  const T& operator[](std::size_t i) const { return all_[i]; }
+  std::span<const T> span() const { return all_; }
+  /// Whoever reads a view of a large file calls it before it reads these elements, which must be there. Throws what the
+  /// view's owner says of damage.
+  void look(std::size_t first, std::size_t count) const { first_look_.ensure(first * sizeof(T), count * sizeof(T)); }
+
+ private:
+  RawVector<T> own_;
+  std::span<const T> all_;
+  FirstLook first_look_;
+};
 
 /// Number of a cell: row * cols + col, both from 0.
 using CellId = std::uint32_t;
@@ -28,6 +62,17 @@ struct PassageWords {
   RawVector<std::uint64_t> right;
   RawVector<std::uint64_t> up;
 };
+
+/// One bit of each of 64 bytes, as a word: the first byte's is the lowest.
+inline std::uint64_t gathered_bits(const std::uint8_t* bytes, unsigned bit) {
+  std::uint64_t word = 0;
+  for (unsigned i = 0; i < 64; i += 8) {
+    std::uint64_t eight;
+    std::memcpy(&eight, bytes + i, 8);
+    word |= ((eight >> bit & 0x0101010101010101U) * 0x0102040810204080U >> 56) << i;
+  }
+  return word;
+}
 
 /// Immutable; owns its words or looks at somebody's. Any number of threads may read.
 class LatticePassages {

@@ -38,10 +38,9 @@ class PieceBuilder {
     const std::size_t count = arrays_.first_exit[places_.tile_count()];
     execution_.reserve(count * 14 * sizeof(std::uint32_t));
     follow_exits(count);
-    sort_children_first();
     choose_heavy();
     number_paths();
-    return renumbered();
+    return std::move(arrays_);
   }
 
  private:
@@ -99,38 +98,32 @@ class PieceBuilder {
     });
   }
 
-  void sort_children_first() {
+  /// Of a piece's children the largest is heavy, of equal ones the first.
+  void choose_heavy() {
     const std::size_t count = exits_.size();
-    RawVector<std::uint32_t> children(count);
-    for_each_poll(count, [&](std::size_t i) { children[i] = 0; });
+    RawVector<std::uint32_t> children(count);  // that are still to come
+    RawVector<std::uint32_t> size(count);
+    RawVector<std::uint32_t> largest(count);
+    heavy_.resize(count);
+    for_each_poll(count, [&](std::size_t i) {
+      children[i] = 0;
+      size[i] = 1;
+      largest[i] = 0;
+      heavy_[i] = no_piece;
+    });
     for_each_poll(count, [&](std::size_t i) {
       if (exits_[i].parent != no_piece) ++children[exits_[i].parent];
     });
     order_.resize(count);
     std::size_t last = 0;
     for_each_poll(count, [&](std::size_t i) {
-      if (children[i] == 0) order_[last++] = static_cast<std::uint32_t>(i);
-    });
-    for_each_poll(count, [&](std::size_t i) {
-      const PieceId parent = exits_[order_[i]].parent;
-      if (parent != no_piece && --children[parent] == 0) order_[last++] = parent;
-    });
-  }
-
-  void choose_heavy() {
-    const std::size_t count = exits_.size();
-    RawVector<std::uint32_t> size(count);
-    RawVector<std::uint32_t> largest(count);
-    heavy_.resize(count);
-    for_each_poll(count, [&](std::size_t i) {
-      size[i] = 1;
-      largest[i] = 0;
-      heavy_[i] = no_piece;
+      if (children[i] == 0) order_[last++] = static_cast<PieceId>(i);
     });
     for_each_poll(count, [&](std::size_t i) {
       const PieceId child = order_[i];
       const PieceId parent = exits_[child].parent;
       if (parent == no_piece) return;
+      if (--children[parent] == 0) order_[last++] = parent;
       size[parent] += size[child];
       if (size[child] < largest[parent] || (size[child] == largest[parent] && child > heavy_[parent])) return;
       largest[parent] = size[child];
@@ -141,34 +134,24 @@ class PieceBuilder {
   /// From the roots down: whoever is no heavy child heads a path, numbered as a whole.
   void number_paths() {
     const std::size_t count = exits_.size();
-    number_.resize(count);
-    head_.resize(count);
+    RawVector<PieceId> number(count);
+    RawVector<TreePiece> pieces(count);
     PieceId next = 0;
     for_each_poll(count, [&](std::size_t i) {
       const PieceId top = order_[count - 1 - i];
       const PieceId parent = exits_[top].parent;
       if (parent != no_piece && heavy_[parent] == top) return;
       const PieceId head = next;
+      const PieceId up = parent == no_piece ? no_piece : number[parent];
+      std::uint32_t depth = up == no_piece ? 0 : pieces[up].depth;
       for (PieceId p = top; p != no_piece; p = heavy_[p]) {
-        head_[next] = head;
-        number_[p] = next++;
+        depth += exits_[p].length;
+        pieces[next] = {head, up, depth, exits_[p].door};
+        number[p] = next++;
       }
     });
-  }
-
-  PieceArrays renumbered() {
-    const std::size_t count = exits_.size();
-    RawVector<TreePiece> pieces(count);
-    for_each_poll(count, [&](std::size_t i) {  // from the roots down
-      const Exit& exit = exits_[order_[count - 1 - i]];
-      const PieceId here = number_[order_[count - 1 - i]];
-      const PieceId parent = exit.parent == no_piece ? no_piece : number_[exit.parent];
-      const std::uint32_t depth = exit.length + (parent == no_piece ? 0 : pieces[parent].depth);
-      pieces[here] = {head_[here], head_[here] == here ? parent : pieces[parent].up, depth, exit.door};
-    });
-    arrays_.piece = ArrayOrView<PieceId>(std::move(number_));
+    arrays_.piece = ArrayOrView<PieceId>(std::move(number));
     arrays_.pieces = ArrayOrView<TreePiece>(std::move(pieces));
-    return std::move(arrays_);
   }
 
   const LatticePlaces& places_;
@@ -176,42 +159,30 @@ class PieceBuilder {
   const Execution& execution_;
   PieceArrays arrays_;
   RawVector<Exit> exits_;
-  RawVector<std::uint32_t> order_;  // children before parents
-  RawVector<PieceId> heavy_;        // largest child
-  RawVector<PieceId> number_;
-  RawVector<PieceId> head_;  // by number
+  RawVector<PieceId> order_;  // children before parents
+  RawVector<PieceId> heavy_;  // largest child
 };
 
-/// A way that turned in a circle is said to have come to the core.
-Climb result_of(const TileClimb& climb, std::uint32_t steps) {
+/// Goes on to the end. A way that turned in a circle is said to have come to the core.
+Climb ended(TileClimb climb, std::uint32_t steps) {
+  while (steps < LatticePlaces::tile_places && climb.step()) ++steps;
   return {climb.place(), steps, climb.at_core() || steps == LatticePlaces::tile_places};
 }
 
 }  // namespace
 
-Climb PieceForest::climb(LatticePlace from) const {
-  TileClimb climb(marks_, from);
-  std::uint32_t steps = 0;
-  while (steps < LatticePlaces::tile_places && climb.step()) ++steps;
-  return result_of(climb, steps);
-}
+Climb PieceForest::climb(LatticePlace from) const { return ended(TileClimb(marks_, from), 0); }
 
 std::array<Climb, 2> PieceForest::climb_both(LatticePlace a, LatticePlace b) const {
   TileClimb one(marks_, a);
   TileClimb other(marks_, b);
   std::uint32_t both = 0;
-  bool one_goes = true;
-  bool other_goes = true;
   for (;; ++both) {
-    one_goes = both < LatticePlaces::tile_places && one.step();
-    other_goes = both < LatticePlaces::tile_places && other.step();
-    if (!one_goes || !other_goes) break;
+    const bool one_goes = both < LatticePlaces::tile_places && one.step();
+    const bool other_goes = both < LatticePlaces::tile_places && other.step();
+    if (one_goes && other_goes) continue;
+    return {ended(one, both + (one_goes ? 1 : 0)), ended(other, both + (other_goes ? 1 : 0))};
   }
-  std::uint32_t one_steps = both + (one_goes ? 1 : 0);
-  std::uint32_t other_steps = both + (other_goes ? 1 : 0);
-  while (one_goes && (one_goes = one_steps < LatticePlaces::tile_places && one.step())) ++one_steps;
-  while (other_goes && (other_goes = other_steps < LatticePlaces::tile_places && other.step())) ++other_steps;
-  return {result_of(one, one_steps), result_of(other, other_steps)};
 }
 
 void PieceForest::prefetch(LatticePlace from) const {
@@ -303,11 +274,6 @@ void require(bool holds, std::string_view what) {
   if (!holds) throw InputError("route index", "a section contradicts the others: build the index again", what);
 }
 
-template <class T, class Test>
-bool every(std::span<const T> list, const Test& test) {
-  return std::all_of(list.begin(), list.end(), test);
-}
-
 /// Exits are those that the marks say, and none leaves the lattice.
 void check_exits(const LatticePlaces& places, CellMarks marks, const ArrayOrView<std::uint64_t>& exits) {
   for (std::uint32_t tile = 0; tile < places.tile_count(); ++tile) {
@@ -390,8 +356,8 @@ void check_front_arrays(const FrontArrays& arrays, const Front& f) {
   }
   const auto check_lengths = [&](const auto& lengths, std::uint32_t most, std::string_view name) {
     lengths.look(f.first_length(), count);
-    require(every(lengths.span().subspan(f.first_length(), count),
-                  [most](std::uint32_t length) { return length >= 1 && length <= most; }),
+    require(std::ranges::all_of(lengths.span().subspan(f.first_length(), count),
+                                [most](std::uint32_t length) { return length >= 1 && length <= most; }),
             name);
   };
   f.is_short() ? check_lengths(arrays.short_lengths, no_short_way, "front.shorts")
@@ -541,9 +507,10 @@ void check_route_arrays(const LatticePlaces& places, const RouteArrays& arrays) 
     check_front_arrays(arrays.fronts, front);
     check_ways(arrays.fronts, front);
   }
-  require(every(arrays.fronts.gate_place.span(), [&](LatticePlace p) { return p < places.place_count(); }),
-          "gate.place");
-  require(every(arrays.gate_rank.span(), [&](GateRank rank) { return rank < gates; }), "gate.rank");
+  require(
+      std::ranges::all_of(arrays.fronts.gate_place.span(), [&](LatticePlace p) { return p < places.place_count(); }),
+      "gate.place");
+  require(std::ranges::all_of(arrays.gate_rank.span(), [&](GateRank rank) { return rank < gates; }), "gate.rank");
   std::uint32_t before = 0;
   for (std::size_t row = 0; row < arrays.gates.size(); ++row) {
     require(arrays.gates_before[row] == before, "gates.before");

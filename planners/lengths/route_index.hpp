@@ -44,7 +44,6 @@
 
 #include "core/run/execution.hpp"
 #include "parallel/once.hpp"
-#include "planners/lengths/array_or_view.hpp"
 #include "planners/lengths/cell_marks.hpp"
 #include "planners/lengths/lattice_passages.hpp"
 #include "planners/lengths/separator_fronts.hpp"
@@ -104,8 +103,7 @@ class PieceForest {
 PieceArrays build_pieces(const LatticePlaces& places, CellMarks marks, const Execution& execution);
 
 struct RouteIndexOptions {
-  std::uint32_t leaf =
-      0;  ///< most junctions between cuts that are searched cell by cell, to most_leaf_junctions; 0: by counting
+  std::uint32_t leaf = 0;   ///< most junctions of a leaf, to most_leaf_junctions; searched cell by cell; 0: counted
   bool open_space = false;  ///< build it where it doesn't pay, too
   void validate() const;
 };

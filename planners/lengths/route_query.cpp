@@ -188,29 +188,20 @@ class FrontQuery {
     backward_.distance.assign(fronts_.gate_place.size(), no_way);
   }
 
-  /// Least sum of steps to a start gate, length, steps from a goal gate, if it is less than `below`; else `below`. Each
-  /// set's gates bound one leaf or are one gate.
-  std::uint32_t length(std::span<const SeenGate> starts, std::span<const SeenGate> goals, std::uint32_t below) {
-    best_ = below;
-    climb(starts, goals);
-    clear(forward_, starts);
-    clear(backward_, goals);
-    return best_;
-  }
-
-  /// The same with the way. first and last: indices into starts and goals, where the way begins and ends.
+  /// first and last: indices into starts and goals, where the way begins and ends.
   struct Way {
     std::uint32_t length;
     std::size_t first;
     std::size_t last;
     std::vector<FrontStep> steps;  ///< none if it begins and ends at one gate
   };
-  /// A way without end indices has the length `below`.
-  Way way(std::span<const SeenGate> starts, std::span<const SeenGate> goals, std::uint32_t below) {
+  /// The least sum of steps to a start gate, length, steps from a goal gate, if it is less than `below`; else `below`.
+  /// Each set's gates bound one leaf or are one gate. traced: with the way itself, where it is less.
+  Way way(std::span<const SeenGate> starts, std::span<const SeenGate> goals, std::uint32_t below, bool traced) {
     best_ = below;
     climb(starts, goals);
     Way way{best_, 0, 0, {}};
-    if (best_ < below) {
+    if (traced && best_ < below) {
       way.first = trace(forward_, starts, meeting_, way.steps);
       std::reverse(way.steps.begin(), way.steps.end());
       std::vector<FrontStep> down;
@@ -345,8 +336,9 @@ struct Hop : MarkedWay {
   HopTurns turns;
 };
 
-/// The cells of a hop (planners/lengths/separator_fronts.hpp), from marks alone: each cell of a chain says where it
-/// goes on, and at junctions the turns do. Cost: 3 to 6 ns a cell, on all threads.
+/// The cells of a hop (planners/lengths/separator_fronts.hpp) but its last one, as they lie: it is the next hop's
+/// first. From marks alone: each cell of a chain says where it goes on, and at junctions the turns do. Refuses marks
+/// that lead elsewhere, after as many steps as the hop has, whatever they are. Cost: 3 to 6 ns a cell, on all threads.
 class HopWalk : public MarkWalk {
  public:
   using MarkWalk::MarkWalk;
@@ -402,14 +394,6 @@ class HopWalk : public MarkWalk {
   unsigned came_from_ = 0;  // the motion that leads back, as a bit
 };
 
-/// Writes the cells of all hops but the last one of each, as they lie: it is the next hop's first. Throws InputError
-/// where marks lead elsewhere: after as many steps as the hops have, whatever the marks are. Throws Stopped.
-void write_hops(const RouteIndex& index, std::span<const Hop> hops, const Execution& execution) {
-  constexpr std::size_t grain = 512;
-  for_chunks(hops.size(), grain, execution,
-             [&](Range r) { walk_side_by_side<HopWalk>(index, hops.subspan(r.first, r.size())); });
-}
-
 /// The cells behind entries of fronts. Beside an entry stands the gate of lower rank that its way goes over, whose row
 /// has both halves of it, and so on down to hops, which are then walked. Nothing is searched for. Entries are opened
 /// level by level, all of a level in three rounds, each of which asks the memory for what the next one reads: one by
@@ -419,8 +403,8 @@ class FrontUnpacking {
   explicit FrontUnpacking(const RouteIndex& index) : index_(index), fronts_(index.arrays().fronts) {}
 
   /// Writes the cells of the ways, one after the other, from the first gate on, which is `cells` itself: one more than
-  /// their lengths together. Throws InputError where fronts contradict each other, after as many looks as there are
-  /// cells at most. Throws Stopped.
+  /// their lengths together. Throws InputError where fronts contradict each other or the marks, after as many looks as
+  /// there are cells at most. Throws Stopped.
   void write(std::span<const FrontStep> steps, CellId* cells, const Execution& execution) {
     todo_.clear();
     hops_.clear();
@@ -438,7 +422,10 @@ class FrontUnpacking {
     }
     // Along the path neighbours share tiles.
     std::sort(hops_.begin(), hops_.end(), [](const Hop& a, const Hop& b) { return a.first < b.first; });
-    write_hops(index_, hops_, execution);
+    constexpr std::size_t grain = 512;
+    const std::span<const Hop> hops = hops_;
+    for_chunks(hops.size(), grain, execution,
+               [&](Range r) { walk_side_by_side<HopWalk>(index_, hops.subspan(r.first, r.size())); });
   }
 
  private:
@@ -534,7 +521,7 @@ class RouteQuery::Scratch {
 
   std::optional<std::uint32_t> length(CellId start, CellId goal) {
     const TreeJoin join = trees_.join(checked(start), checked(goal));
-    const std::uint32_t between = join.in_tree() ? 0 : core_length(join.start_core, join.goal_core);
+    const std::uint32_t between = join.in_tree() ? 0 : core_way(join.start_core, join.goal_core, false).length;
     if (between >= no_way) return std::nullopt;
     return join.start_steps + between + join.goal_steps;
   }
@@ -544,7 +531,7 @@ class RouteQuery::Scratch {
     const LatticePlace b = checked(goal);
     const TreeJoin join = trees_.join(a, b);
     FrontQuery::Way between{};
-    if (!join.in_tree()) between = core_way(join.start_core, join.goal_core);
+    if (!join.in_tree()) between = core_way(join.start_core, join.goal_core, true);
     if (between.length >= no_way) return {};
     for (const std::uint32_t length : {join.start_steps, between.length, join.goal_steps}) {
       if (length > index_.places().place_count()) refuse_length();
@@ -567,23 +554,18 @@ class RouteQuery::Scratch {
     if (cell < index_.passages().cell_count()) return index_.places().place_of(cell);
     throw InputError("cell", "must be below " + std::to_string(index_.passages().cell_count()), std::to_string(cell));
   }
-  std::uint32_t core_length(LatticePlace start, LatticePlace goal) {
-    near_start_.search(start);
-    near_goal_.search(goal);
-    return fronts_.length(near_start_.gates(), near_goal_.gates(), direct_length(goal));
-  }
   /// By no gate but the two ends, or no_way.
   std::uint32_t direct_length(LatticePlace goal) const {
     const std::uint32_t seen = near_start_.number_of(goal);
     return seen == CoreSearch::none ? no_way : near_start_.seen(seen).steps;
   }
-  /// As long as its parts together, or refused.
-  FrontQuery::Way core_way(LatticePlace start, LatticePlace goal) {
+  /// traced: with the way itself, as long as its parts together, or refused.
+  FrontQuery::Way core_way(LatticePlace start, LatticePlace goal, bool traced) {
     near_start_.search(start);
     near_goal_.search(goal);
     const std::uint32_t direct = direct_length(goal);
-    FrontQuery::Way way = fronts_.way(near_start_.gates(), near_goal_.gates(), direct);
-    if (way.length == direct) return way;
+    FrontQuery::Way way = fronts_.way(near_start_.gates(), near_goal_.gates(), direct, traced);
+    if (!traced || way.length == direct) return way;
     std::size_t length = std::size_t{near_start_.gates()[way.first].steps} + near_goal_.gates()[way.last].steps;
     for (const FrontStep& step : way.steps) length += step.length;
     if (length != way.length) refuse_length();

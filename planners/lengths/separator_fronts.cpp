@@ -123,7 +123,11 @@ class FrontMatrix {
   /// The way from `from` to `to` > `from` of another matrix, here i and j > i.
   void lessen_as(std::size_t i, std::size_t j, const FrontMatrix& other, std::size_t from, std::size_t to) {
     const std::uint32_t length = other.row(from)[to - from];
-    if (length < row(i)[j - i]) take(i, j, length, other, other.by(from)[to - from]);
+    if (length >= row(i)[j - i]) return;
+    const WayBy by_what = other.by(from)[to - from];
+    if ((by_what & hop_bit) != 0) return lessen_by_hop(i, j, length, other.hop(by_what));
+    row(i)[j - i] = length;
+    by(i)[j - i] = by_what;
   }
   /// The first `gates` of all, whose ranks begin at `first`.
   void eliminate(std::size_t gates, GateRank first, const Execution& execution) {
@@ -134,11 +138,6 @@ class FrontMatrix {
 
  private:
   WayBy* by(std::size_t i) { return by_.data() + i * size_ - (i > 0 ? i * (i - 1) / 2 : 0); }
-  void take(std::size_t i, std::size_t j, std::uint32_t length, const FrontMatrix& other, WayBy by_what) {
-    if ((by_what & hop_bit) != 0) return lessen_by_hop(i, j, length, other.hop(by_what));
-    row(i)[j - i] = length;
-    by(i)[j - i] = by_what;
-  }
 
   void eliminate_block(std::size_t first, std::size_t last, GateRank rank, const Execution& execution) {
     for (std::size_t i = first + 1; i < last; ++i) pass_by(i, first, i, rank);
@@ -172,6 +171,20 @@ std::size_t place_in(std::span<const std::uint32_t> ascending, std::uint32_t val
   return static_cast<std::size_t>(std::lower_bound(ascending.begin(), ascending.end(), value) - ascending.begin());
 }
 
+/// Adds the gates from `first` on that chains of these junctions lead to, and puts all in order, each once.
+void add_bounds(const CoreGraph& graph, const RawVector<GateRank>& rank, std::span<const JunctionId> junctions,
+                GateRank first, std::vector<GateRank>& bounds) {
+  for (const JunctionId v : junctions) {
+    for (HalfEdge h = 4 * v; h < 4 * v + 4; ++h) {
+      const HalfEdge twin = graph.twin[h];
+      if (twin == no_half_edge || rank[twin / 4] == no_rank || rank[twin / 4] < first) continue;
+      bounds.push_back(rank[twin / 4]);
+    }
+  }
+  std::sort(bounds.begin(), bounds.end());
+  bounds.erase(std::unique(bounds.begin(), bounds.end()), bounds.end());
+}
+
 /// What a node hands to its parent.
 struct BoundLengths {
   std::vector<GateRank> bounds;  ///< ascending
@@ -188,7 +201,8 @@ class LeafElimination {
   LeafElimination(const CoreGraph& graph, const RawVector<GateRank>& rank) : graph_(graph), rank_(rank) {}
 
   BoundLengths eliminate(std::span<const JunctionId> leaf, const Execution& execution) {
-    find_bounds(leaf);
+    bounds_.clear();
+    add_bounds(graph_, rank_, leaf, 0, bounds_);
     load(leaf);
     std::uint64_t left = (std::uint64_t{1} << leaf.size()) - 1;
     while (left != 0) {
@@ -220,18 +234,6 @@ class LeafElimination {
   static constexpr std::size_t most = 128;
   static_assert(3 * most_leaf_junctions + 2 <= most, "a connected leaf of n junctions has at most 2 n + 2 bounds");
   using Neighbours = std::array<std::uint64_t, 2>;
-
-  void find_bounds(std::span<const JunctionId> leaf) {
-    bounds_.clear();
-    for (const JunctionId v : leaf) {
-      for (HalfEdge h = 4 * v; h < 4 * v + 4; ++h) {
-        const HalfEdge twin = graph_.twin[h];
-        if (twin != no_half_edge && rank_[twin / 4] != no_rank) bounds_.push_back(rank_[twin / 4]);
-      }
-    }
-    std::sort(bounds_.begin(), bounds_.end());
-    bounds_.erase(std::unique(bounds_.begin(), bounds_.end()), bounds_.end());
-  }
 
   void load(std::span<const JunctionId> leaf) {
     assert(leaf.size() + bounds_.size() <= most);
@@ -520,15 +522,7 @@ class FrontBuilder {
     for (const BoundLengths& child : children) {
       bounds.insert(bounds.end(), std::lower_bound(child.bounds.begin(), child.bounds.end(), end), child.bounds.end());
     }
-    for (const JunctionId v : members(node)) {
-      for (HalfEdge h = 4 * v; h < 4 * v + 4; ++h) {
-        const HalfEdge twin = graph_.twin[h];
-        if (twin == no_half_edge || rank_[twin / 4] == no_rank || rank_[twin / 4] < end) continue;
-        bounds.push_back(rank_[twin / 4]);
-      }
-    }
-    std::sort(bounds.begin(), bounds.end());
-    bounds.erase(std::unique(bounds.begin(), bounds.end()), bounds.end());
+    add_bounds(graph_, rank_, members(node), end, bounds);
     return bounds;
   }
 

@@ -25,8 +25,8 @@
 #include <cstdint>
 
 #include "core/run/execution.hpp"
-#include "planners/lengths/array_or_view.hpp"
 #include "planners/lengths/dissection.hpp"
+#include "planners/lengths/lattice_passages.hpp"
 
 namespace warren {
 

@@ -7,8 +7,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "core/search/graph.hpp"
-#include "core/search/union_find.hpp"
+#include "planners/graph/components.hpp"
 #include "planners/mazes/tile_plane.hpp"
 
 namespace warren {
@@ -19,12 +18,6 @@ std::size_t neighbour(const TileGrid& grid, std::size_t tile, unsigned side) {
   const std::size_t across = side == 0 || side == 2 ? 1 : grid.tile_cols;
   return side < 2 ? tile + across : tile - across;
 }
-
-/// Tiles are peeled in ranges of so many: at most 32 ranges.
-std::size_t peel_grain(std::size_t tiles) { return std::max<std::size_t>(8, (tiles + 31) / 32); }
-
-/// Tiles whose rows are written at once: 65 536 lattice points.
-std::size_t fill_grain(const TileGrid& grid) { return std::size_t{1} << (16 - 2 * std::min(grid.side_log2, 8U)); }
 
 using Crossings = std::array<std::vector<std::uint16_t>, 4>;
 
@@ -195,12 +188,19 @@ void try_links(const LatticeWorld& world, std::span<const Segment> walls, std::s
 
 Overlay::Overlay(const TileGrid& grid, std::span<const TileSummary> tiles, const OverlayEnds& ends,
                  const Execution& execution) {
-  number_keys(tiles);
+  first_key_.assign(tiles.size() + 1, 0);
+  std::uint64_t keys = 0;
+  for (std::size_t t = 0; t < tiles.size(); ++t) {
+    keys += tiles[t].keys.size();
+    if (keys > no_vertex - 4U) throw InputError("roadmap", "has more than 2^32 overlay vertices");
+    first_key_[t + 1] = static_cast<VertexId>(keys);
+  }
   execution.reserve(vertex_count() * (sizeof(rows_[0]) + 1));
   rows_.resize(start());
   left_.resize(vertex_count());
   std::vector<std::uint32_t> longest(tile_count(), 1);
-  for_each_index(tile_count(), fill_grain(grid), execution,
+  const std::size_t grain = std::size_t{1} << (16 - 2 * std::min(grid.side_log2, 8U));  // 65 536 lattice points
+  for_each_index(tile_count(), grain, execution,
                  [&](std::size_t tile) { longest[tile] = fill_tile(grid, tiles, tile); });
   longest_ = *std::max_element(longest.begin(), longest.end());
   fill_ends(grid, tiles, ends);
@@ -221,26 +221,6 @@ std::uint32_t Overlay::steps_between(VertexId v, VertexId w) const {
   }
   assert(least != no_vertex);
   return least;
-}
-
-void Overlay::number_keys(std::span<const TileSummary> tiles) {
-  first_key_.assign(tiles.size() + 1, 0);
-  std::uint64_t keys = 0;
-  for (std::size_t t = 0; t < tiles.size(); ++t) {
-    first_key_[t] = static_cast<VertexId>(keys);
-    keys += tiles[t].keys.size();
-    if (keys > no_vertex - 4U) throw InputError("roadmap", "has more than 2^32 overlay vertices");
-  }
-  first_key_.back() = static_cast<VertexId>(keys);
-}
-
-VertexId Overlay::key_at(const TileGrid& grid, std::span<const TileSummary> tiles, const EndLink& link) const {
-  const std::size_t tile = grid.tile_at(link.col, link.row);
-  const std::uint32_t local = (link.row - grid.first_row(tile)) * grid.side() + (link.col - grid.first_col(tile));
-  const auto& keys = tiles[tile].keys;
-  const auto found = std::lower_bound(keys.begin(), keys.end(), local);
-  assert(found != keys.end() && *found == local);  // linked vertices are kept by the reduction
-  return first_key_[tile] + static_cast<VertexId>(found - keys.begin());
 }
 
 /// Writes the rows of one tile's keys. Returns the steps of the longest edge.
@@ -274,7 +254,12 @@ void Overlay::fill_ends(const TileGrid& grid, std::span<const TileSummary> tiles
   for (const EndLinks* end : {&ends.start, &ends.goal}) {
     std::vector<OverlayEnd>& row = links_[end == &ends.start ? 0 : 1];
     for (const EndLink& link : end->links) {
-      const VertexId key = key_at(grid, tiles, link);
+      const std::size_t tile = grid.tile_at(link.col, link.row);
+      const std::uint32_t local = (link.row - grid.first_row(tile)) * grid.side() + (link.col - grid.first_col(tile));
+      const auto& keys = tiles[tile].keys;
+      const auto found = std::lower_bound(keys.begin(), keys.end(), local);
+      assert(found != keys.end() && *found == local);  // linked vertices are kept by the reduction
+      const VertexId key = first_key_[tile] + static_cast<VertexId>(found - keys.begin());
       row.push_back({key, 0});
       left_[key] = static_cast<std::uint8_t>(left_[key] + 2);
     }
@@ -283,16 +268,13 @@ void Overlay::fill_ends(const TileGrid& grid, std::span<const TileSummary> tiles
   left_[start()] = left_[goal()] = 2;
 }
 
-std::size_t Overlay::tile_of(VertexId v) const {
-  return static_cast<std::size_t>(std::upper_bound(first_key_.begin(), first_key_.end(), v) - first_key_.begin()) - 1;
-}
-
 std::uint64_t Overlay::peel(const Execution& execution) {
   struct Part {
     std::uint64_t closed = 0;
     std::vector<VertexId> stops;
   };
-  const auto parts = parts_of_chunks(tile_count(), peel_grain(tile_count()), execution, [&](Range r) {
+  const std::size_t grain = std::max<std::size_t>(8, (tile_count() + 31) / 32);  // at most 32 ranges
+  const auto parts = parts_of_chunks(tile_count(), grain, execution, [&](Range r) {
     const VertexId first = first_key_[r.first];
     const VertexId last = first_key_[r.last];
     Part part;
@@ -347,46 +329,23 @@ VertexId Overlay::peel_from(VertexId v, VertexId first, VertexId last, std::uint
   return no_vertex;
 }
 
-VertexId OverlayComponents::root(VertexId v) const {
-  VertexId place = v - first_;
-  while (parent_[place] != place) place = parent_[place];
-  return first_ + place;
-}
-
 OverlayComponents::OverlayComponents(const Overlay& overlay, Range vertices, const Execution& execution)
-    : first_(static_cast<VertexId>(vertices.first)) {
-  constexpr std::size_t grain = std::size_t{1} << 14;
-  struct Part {
-    std::size_t members = 0;
-    std::size_t joins = 0;
-    std::vector<Edge> across;  // to places before the chunk
-  };
-  execution.reserve(vertices.size() * sizeof(VertexId));
-  parent_.resize(vertices.size());
-  const auto parts = parts_of_chunks(vertices.size(), grain, execution, [&](Range r) {
-    Part part;
-    for (auto place = static_cast<VertexId>(r.first); place < r.last; ++place) {
-      const VertexId v = first_ + place;
-      parent_[place] = place;
-      if (overlay.is_peeled(v)) continue;
-      ++part.members;
-      for (const OverlayEnd& end : overlay.ends(v)) {
-        if (end.target > v || end.target < first_ || overlay.is_peeled(end.target)) continue;  // each edge once
-        const VertexId other = end.target - first_;
-        if (other < r.first) {
-          part.across.push_back({place, other});
-        } else {
-          part.joins += unite(parent_, place, other) ? 1 : 0;
+    : first_(static_cast<VertexId>(vertices.first)),
+      label_(joined_labels(vertices.size(), execution, [&](VertexId place, const auto& join) {
+        const VertexId v = first_ + place;
+        if (overlay.is_peeled(v)) return;
+        for (const OverlayEnd& end : overlay.ends(v)) {  // each edge once
+          if (end.target < v && end.target >= first_ && !overlay.is_peeled(end.target)) join(end.target - first_);
         }
-      }
+      })) {
+  constexpr std::size_t grain = std::size_t{1} << 14;
+  count_ = sum_of_chunks(label_.size(), grain, execution.quiet(), [&](Range r) {
+    std::uint64_t count = 0;
+    for (auto place = static_cast<VertexId>(r.first); place < r.last; ++place) {
+      count += label_[place] == place && !overlay.is_peeled(first_ + place) ? 1 : 0;
     }
-    return part;
+    return count;
   });
-  for (const Part& part : parts) {
-    execution.check();
-    count_ += part.members - part.joins;
-    for (const Edge& edge : part.across) count_ -= unite(parent_, edge.from, edge.to) ? 1 : 0;
-  }
 }
 
 void peel_band(const TileGrid& grid, std::size_t first_row, std::size_t last_row, const OverlayEnds& ends,

@@ -11,6 +11,7 @@
 // a key.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -93,7 +94,9 @@ class Overlay {
   /// No edge between keys has more steps.
   std::uint32_t longest() const { return longest_; }
   /// The tile that a key is of; O(log tiles).
-  std::size_t tile_of(VertexId v) const;
+  std::size_t tile_of(VertexId v) const {
+    return static_cast<std::size_t>(std::upper_bound(first_key_.begin(), first_key_.end(), v) - first_key_.begin()) - 1;
+  }
   /// First key of a tile; the tile's key k is the overlay's vertex first_key(tile) + k.
   VertexId first_key(std::size_t tile) const { return first_key_[tile]; }
 
@@ -106,10 +109,8 @@ class Overlay {
 
  private:
   static constexpr std::uint8_t peeled = 255;
-  void number_keys(std::span<const TileSummary> tiles);
   std::uint32_t fill_tile(const TileGrid& grid, std::span<const TileSummary> tiles, std::size_t tile);
   void fill_ends(const TileGrid& grid, std::span<const TileSummary> tiles, const OverlayEnds& ends);
-  VertexId key_at(const TileGrid& grid, std::span<const TileSummary> tiles, const EndLink& link) const;
   void add_end(VertexId key, VertexId target, std::uint32_t steps) { rows_[key][left_[key]++] = {target, steps}; }
   VertexId peel_from(VertexId v, VertexId first, VertexId last, std::uint64_t& closed);
   std::size_t tile_count() const { return first_key_.size() - 1; }
@@ -122,19 +123,19 @@ class Overlay {
 };
 
 /// Components of the overlay: of its core, the vertices that are not peeled, or of a part of them. The search is
-/// planners/mazes/overlay_search.hpp. Union-find over the vertices of a range that are not peeled, and the edges
-/// between them. O(vertices); 4 bytes each.
+/// planners/mazes/overlay_search.hpp. Of the vertices of a range that are not peeled, and the edges between them, by a
+/// lock-free union on all cores. O(vertices); 4 bytes each.
 class OverlayComponents {
  public:
   /// Throws Stopped.
   OverlayComponents(const Overlay& overlay, Range vertices, const Execution& execution);
   std::uint64_t count() const { return count_; }
   /// A vertex of the range that stands for v's component.
-  VertexId root(VertexId v) const;
+  VertexId root(VertexId v) const { return first_ + label_[v - first_]; }
 
  private:
   const VertexId first_;
-  RawVector<VertexId> parent_;  // places in the range
+  RawVector<VertexId> label_;  // of each place in the range the smallest of its component
   std::uint64_t count_ = 0;
 };
 

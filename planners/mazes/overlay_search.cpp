@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
-#include <numeric>
-#include <set>
 
 #include "core/base/error.hpp"
 #include "planners/graph/queue_choice.hpp"
@@ -229,30 +227,6 @@ SearchResult search_steps(const Overlay& overlay, const OverlayEnds& ends, const
 
 namespace {
 
-constexpr std::size_t legs_a_chunk = 1024;  // legs
-
-/// The first chain of so many steps between keys from < to of a tile; there must be one.
-const Chain& chain_between(const TileSummary& tile, std::uint32_t from, std::uint32_t to, std::uint32_t steps) {
-  const auto first = std::lower_bound(tile.chains.begin(), tile.chains.end(), from,
-                                      [](const Chain& chain, std::uint32_t key) { return chain.from < key; });
-  const auto found = std::find_if(first, tile.chains.end(),
-                                  [&](const Chain& chain) { return chain.to == to && chain.length == steps; });
-  assert(found != tile.chains.end() && found->from == from);
-  return *found;
-}
-
-constexpr Vec2 directions[4] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
-
-/// Writes the vertices after v along a chain of v's tile, up to its other end.
-void walk_chain(const TileSummary& tile, const Chain& chain, bool forward, Vec2 at, Vec2* out) {
-  const std::uint8_t* steps = tile.steps.data() + chain.first_step;
-  for (std::uint32_t i = 0; i < chain.length; ++i) {
-    const unsigned direction = forward ? steps[i] : steps[chain.length - 1 - i] ^ 2U;
-    at = at + directions[direction];
-    *out++ = at;
-  }
-}
-
 std::uint16_t number_of(const TileSummary& tile, std::uint32_t place) {
   const auto found = std::lower_bound(tile.keys.begin(), tile.keys.end(), place);
   return static_cast<std::uint16_t>(found - tile.keys.begin());
@@ -287,94 +261,6 @@ void add_leg(const RouteKey& from, const RouteKey& to, const TileGrid& grid, std
 }
 
 }  // namespace
-
-PathExpansion::PathExpansion(const Overlay& overlay, const TileGrid& grid, const OverlayEnds& ends,
-                             std::span<const VertexId> path, const Execution& execution)
-    : overlay_(overlay), grid_(grid), ends_(ends), path_(path), execution_(execution) {
-  execution.reserve((leg_count() + 1) * sizeof(std::size_t));
-  first_.assign(leg_count() + 1, 1);
-  for_each_index(leg_count(), legs_a_chunk, execution.quiet(), [&](std::size_t i) { first_[i + 1] = steps_of(i); });
-  std::partial_sum(first_.begin(), first_.end(), first_.begin());
-}
-
-PathPiece PathExpansion::piece_from(std::size_t first, std::size_t most_points, std::size_t most_tiles) const {
-  std::set<std::size_t> tiles;
-  std::size_t last_tile = grid_.count();
-  const auto pass = [&](VertexId v) {
-    if (!overlay_.is_key(v)) return;
-    const std::size_t tile = overlay_.tile_of(v);
-    if (tile != last_tile) tiles.insert(tile);
-    last_tile = tile;
-  };
-  pass(path_[first]);
-  std::size_t last = first;
-  while (last < leg_count()) {
-    if (last > first && (point_count({first, last}) >= most_points || tiles.size() >= most_tiles)) break;
-    if (last % legs_a_chunk == 0) execution_.check();
-    pass(path_[++last]);
-  }
-  return {{first, last}, {tiles.begin(), tiles.end()}};
-}
-
-std::vector<PathChain> PathExpansion::chains_of(Range legs) const {
-  std::vector<PathChain> chains;
-  for (std::size_t leg = legs.first; leg < legs.last; ++leg) {
-    if (leg % legs_a_chunk == 0) execution_.check();
-    if (first_[leg + 1] - first_[leg] > 1) chains.push_back(chain_of(leg));
-  }
-  return chains;
-}
-
-void PathExpansion::write(Range legs, std::span<const TileSummary> tiles, Vec2* out) const {
-  *out = place_of(path_[legs.first], tiles);
-  for_chunks(legs.size(), legs_a_chunk, execution_, [&](Range r) {
-    for (std::size_t i = legs.first + r.first; i < legs.first + r.last; ++i) {
-      write_leg(i, tiles, out + 1 + (first_[i] - first_[legs.first]));
-    }
-  });
-}
-
-Path<Vec2> PathExpansion::points(std::span<const TileSummary> tiles) const {
-  Path<Vec2> points;
-  reserve_touched(points, point_count(), execution_);
-  points.resize(point_count());  // not with a value: the library of g++ 12 is slow at that
-  write({0, leg_count()}, tiles, points.data());
-  return points;
-}
-
-Vec2 PathExpansion::place_of(VertexId v, std::span<const TileSummary> tiles) const {
-  if (v == overlay_.start()) return ends_.start.at;
-  if (v == overlay_.goal()) return ends_.goal.at;
-  const std::size_t tile = overlay_.tile_of(v);
-  const std::uint32_t local = tiles[tile].keys[v - overlay_.first_key(tile)];
-  const std::uint32_t side = grid_.side();
-  return TileGrid::point(grid_.first_col(tile) + local % side, grid_.first_row(tile) + local / side);
-}
-
-std::uint32_t PathExpansion::steps_of(std::size_t leg) const {
-  const bool is_link = !overlay_.is_key(path_[leg]) || !overlay_.is_key(path_[leg + 1]);
-  return is_link ? 1 : overlay_.steps_between(path_[leg], path_[leg + 1]);
-}
-
-/// Of a leg of more than one step.
-PathChain PathExpansion::chain_of(std::size_t leg) const {
-  const std::size_t tile = overlay_.tile_of(path_[leg]);
-  const VertexId first = overlay_.first_key(tile);
-  const auto [low, high] = std::minmax(path_[leg], path_[leg + 1]);
-  return {tile, static_cast<std::uint16_t>(low - first), static_cast<std::uint16_t>(high - first),
-          static_cast<std::uint32_t>(first_[leg + 1] - first_[leg])};
-}
-
-void PathExpansion::write_leg(std::size_t leg, std::span<const TileSummary> tiles, Vec2* out) const {
-  if (first_[leg + 1] - first_[leg] == 1) {
-    *out = place_of(path_[leg + 1], tiles);
-    return;
-  }
-  const PathChain taken = chain_of(leg);
-  const TileSummary& tile = tiles[taken.tile];
-  const Chain& chain = chain_between(tile, taken.from, taken.to, taken.length);
-  walk_chain(tile, chain, path_[leg] < path_[leg + 1], place_of(path_[leg], tiles), out);
-}
 
 std::vector<TileSummary> tiles_of(const ToldRoute& route, const TileGrid& grid, const OverlayEnds& ends,
                                   const Execution& execution) {

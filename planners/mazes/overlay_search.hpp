@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The shortest path in an overlay's core: Dijkstra's search from both ends at once, a thread an end; and what a path of
-// the overlay stands for.
+// The shortest path in an overlay's core: Dijkstra's search from both ends at once, a thread an end.
 //
 // Edges between keys are whole numbers of steps, so a side's open vertices lie in a circle of buckets, one a step (Dial
 // 1969): pushing and popping cost the same whatever is open, and what lies in the bucket that is emptied can't improve
@@ -21,9 +20,6 @@
 // that have a band of the keys each can search in the same rounds, bucket by bucket
 // (apps/distributed/shared_search.hpp). A side then settles its own keys, and tells the labels of others instead.
 // Memory: 8 bytes a vertex and side, 16 an open one; parents are found again on the way back, from the labels.
-//
-// A path of the overlay with all that its chains stand for, whole or in pieces: a piece needs the summaries of the
-// tiles that it passes and no others. A leg leads from one vertex of the path to the next. Memory: 8 bytes a leg.
 #pragma once
 
 #include <cmath>
@@ -136,54 +132,6 @@ class StepSide {
 
 /// The shortest path from start to goal over vertices that are not peeled. Throws Stopped at the deadline.
 SearchResult search_steps(const Overlay& overlay, const OverlayEnds& ends, const Execution& execution);
-
-/// Some legs in a row.
-struct PathPiece {
-  Range legs;
-  std::vector<std::size_t> tiles;  ///< those that it passes, ascending
-};
-
-/// A chain that a path takes: key numbers of its tile, the lower first.
-struct PathChain {
-  std::size_t tile;
-  std::uint16_t from, to;
-  std::uint32_t length;
-};
-
-/// Refers to all that it is made of.
-class PathExpansion {
- public:
-  /// path: from start to goal. Throws Stopped.
-  PathExpansion(const Overlay& overlay, const TileGrid& grid, const OverlayEnds& ends, std::span<const VertexId> path,
-                const Execution& execution);
-
-  std::size_t leg_count() const { return path_.size() - 1; }
-  std::size_t point_count() const { return first_.back(); }
-  /// Points of a piece, its first leg's beginning among them.
-  std::size_t point_count(Range legs) const { return first_[legs.last] - first_[legs.first] + 1; }
-  /// As many legs from `first` on as have so many points and pass so many tiles, at least one.
-  PathPiece piece_from(std::size_t first, std::size_t most_points, std::size_t most_tiles) const;
-  /// Those of more than one step among these legs, in their order.
-  std::vector<PathChain> chains_of(Range legs) const;
-  /// Writes the points of a piece, its first leg's beginning among them; `tiles` has the summaries by number. In
-  /// parallel. Throws Stopped.
-  void write(Range legs, std::span<const TileSummary> tiles, Vec2* out) const;
-  /// All points.
-  Path<Vec2> points(std::span<const TileSummary> tiles) const;
-
- private:
-  Vec2 place_of(VertexId v, std::span<const TileSummary> tiles) const;
-  std::uint32_t steps_of(std::size_t leg) const;
-  PathChain chain_of(std::size_t leg) const;
-  void write_leg(std::size_t leg, std::span<const TileSummary> tiles, Vec2* out) const;
-
-  const Overlay& overlay_;
-  const TileGrid& grid_;
-  const OverlayEnds& ends_;
-  std::span<const VertexId> path_;
-  const Execution& execution_;
-  std::vector<std::size_t> first_;  // where the points of each leg go, its beginning not counted; and the end
-};
 
 /// Holds a path that comes in pieces: the taker of those who need all of its points. Appends to an empty path, which
 /// must outlive it. begin() asks for the memory: Stopped.

@@ -157,20 +157,17 @@ void WallMarker::mark(const TileWalls& walls, TilePlane& plane) {
     taken_ = 0;
     stride_ = plane.stride();
   }
-  mark_narrow(walls.narrow, plane);
-  walls.for_each_wide([&](const Segment& wall) { mark_one(wall, plane); });
-}
-
-void WallMarker::mark_narrow(std::span<const NarrowWall> walls, TilePlane& plane) {
   const int middle = static_cast<int>(plane.grid().side() / 2);
   std::uint8_t* const origin = plane.at(middle, middle);
   const auto stride = static_cast<std::int16_t>(plane.stride());
-  for (std::size_t i = 0; i < walls.size(); i += 2) {
-    const bool single = i + 1 == walls.size();
-    const auto [one, other] = detail::wall_shapes(walls.data() + i, single, stride);
-    mark_shape(one.key, walls[i], origin + one.place, plane);
-    if (!single) mark_shape(other.key, walls[i + 1], origin + other.place, plane);
+  const std::span<const NarrowWall> narrow = walls.narrow;
+  for (std::size_t i = 0; i < narrow.size(); i += 2) {
+    const bool single = i + 1 == narrow.size();
+    const auto [one, other] = detail::wall_shapes(narrow.data() + i, single, stride);
+    mark_shape(one.key, narrow[i], origin + one.place, plane);
+    if (!single) mark_shape(other.key, narrow[i + 1], origin + other.place, plane);
   }
+  walls.for_each_wide([&](const Segment& wall) { mark_one(wall, plane); });
 }
 
 inline void WallMarker::mark_shape(std::uint64_t key, const NarrowWall& wall, std::uint8_t* cell, TilePlane& plane) {

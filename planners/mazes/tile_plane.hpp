@@ -139,7 +139,6 @@ class WallMarker {
     std::array<std::uint8_t, most_clears> keep_bits;
   };
 
-  void mark_narrow(std::span<const NarrowWall> walls, TilePlane& plane);
   void mark_shape(std::uint64_t key, const NarrowWall& wall, std::uint8_t* cell, TilePlane& plane);
   void learn(std::uint64_t key, Shape& shape, int stride) const;
   void mark_one(const Segment& wall, TilePlane& plane) const;

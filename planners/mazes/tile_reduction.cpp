@@ -149,12 +149,6 @@ void check_borders(const TileGrid& grid, std::span<const TileSummary> tiles, con
   }
 }
 
-std::size_t TileSummary::bytes() const {
-  std::size_t total = sizeof(*this) + keys.size() * 2 + chains.size() * sizeof(Chain) + steps.size();
-  for (const auto& side : crossings) total += side.size() * 2;
-  return total;
-}
-
 TileReduction::TileReduction(const TilePlane& plane)
     : offset_(plane.offsets()),
       found_(static_cast<std::size_t>(plane.stride()) + 2),

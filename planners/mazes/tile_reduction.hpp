@@ -46,7 +46,11 @@ struct TileSummary {
   std::uint64_t free_edges = 0;         ///< those of them that no wall blocks
   std::uint64_t closed_components = 0;  ///< components that have no key: they lie inside the tile
 
-  std::size_t bytes() const;
+  std::size_t bytes() const {
+    std::size_t total = sizeof(*this) + keys.size() * 2 + chains.size() * sizeof(Chain) + steps.size();
+    for (const auto& side : crossings) total += side.size() * 2;
+    return total;
+  }
 };
 
 /// Scratch of one thread.

@@ -77,11 +77,6 @@ void resize_touched(RawVector<Wall>& walls, std::size_t count, const Execution& 
 
 }  // namespace
 
-void ChunkCounts::add_up() {
-  std::fill_n(before_.begin(), tiles_, 0U);
-  for (std::size_t i = tiles_; i < before_.size(); ++i) before_[i] += before_[i - tiles_];
-}
-
 WallCounts::WallCounts(const WallSet& walls, const WallFiler& filer, std::size_t tiles, const Execution& execution)
     : walls_(walls.size()), grain_(grain_of(walls.size())), tiles_(tiles) {
   execution.reserve(2 * (chunks() + 1) * tiles * sizeof(std::uint32_t));
@@ -91,8 +86,6 @@ WallCounts::WallCounts(const WallSet& walls, const WallFiler& filer, std::size_t
   narrow_.add_up();
   any_wide_ ? wide_.add_up() : void(wide_ = {});
 }
-
-Range WallCounts::chunk(std::size_t number) const { return {number * grain_, std::min(walls_, (number + 1) * grain_)}; }
 
 template <class Wall>
 void WallCounts::count(std::span<const Wall> walls, const WallFiler& filer, const Execution& execution) {
@@ -123,14 +116,6 @@ void WallCounts::count(std::span<const Wall> walls, const WallFiler& filer, cons
   any_wide_ = std::find(wide_found.begin(), wide_found.end(), 1) != wide_found.end();
 }
 
-std::vector<std::size_t> TileBands::tiles(const TileGrid& grid, std::uint32_t band) const {
-  std::vector<std::size_t> tiles;
-  for (std::size_t tile = 0; tile < grid.count(); ++tile) {
-    if (of(grid, tile) == band) tiles.push_back(tile);
-  }
-  return tiles;
-}
-
 TileBands choose_bands(const WallCounts& counts, const TileGrid& grid, const Execution& execution) {
   std::size_t bytes = 0;
   for (std::size_t tile = 0; tile < counts.tiles(); ++tile) bytes += bytes_of_tile(counts, tile);
@@ -149,14 +134,14 @@ TileBands choose_bands(const WallCounts& counts, const TileGrid& grid, const Exe
 }
 
 WallPartition::WallPartition(const WallSet& walls, std::span<const Segment> more, const TileGrid& grid, double halo,
-                             const Execution& execution, const Choose& choose)
+                             const Execution& execution, std::optional<TileBands> bands)
     : walls_(walls),
       more_(more),
       execution_(execution),
       grid_(grid),
       filer_(grid_, halo),
       counts_(walls, filer_, grid.count(), execution),
-      bands_(choose(counts_)),
+      bands_(bands ? *bands : choose_bands(counts_, grid, execution)),
       first_narrow_(grid.count()),
       first_wide_(grid.count()) {
   if (bands_.count == 1) {
@@ -169,12 +154,8 @@ WallPartition::WallPartition(const WallSet& walls, std::span<const Segment> more
     narrow[bands_.of(grid_, tile)] += counts_.narrow().of_tile(tile);
     wide[bands_.of(grid_, tile)] += counts_.wide().of_tile(tile);
   }
-  make_room(std::ranges::max(narrow), std::ranges::max(wide), execution);
-}
-
-void WallPartition::make_room(std::size_t narrow, std::size_t wide, const Execution& execution) {
-  resize_touched(narrow_, narrow, execution);
-  resize_touched(wide_, wide, execution);
+  resize_touched(narrow_, std::ranges::max(narrow), execution);
+  resize_touched(wide_, std::ranges::max(wide), execution);
 }
 
 std::vector<std::size_t> WallPartition::begin_band(std::uint32_t band, const Execution& execution) {
@@ -190,7 +171,8 @@ std::vector<std::size_t> WallPartition::begin_band(std::uint32_t band, const Exe
     const auto has = [&](std::size_t tile) { return counts_.has(chunk, tile); };
     if (std::any_of(tiles.begin(), tiles.end(), has)) chunks.push_back(chunk);
   }
-  make_room(narrow, wide, execution);
+  resize_touched(narrow_, narrow, execution);
+  resize_touched(wide_, wide, execution);
   walls_.visit([&](auto walls) { scatter(walls, chunks, execution); });
   filed_ = band;
   return tiles;
@@ -203,9 +185,17 @@ void WallPartition::scatter(std::span<const Wall> walls, std::span<const std::si
   std::vector<std::uint64_t> middles(grid_.count());
   for (std::size_t tile = 0; tile < middles.size(); ++tile) middles[tile] = middle_of(grid_, tile);
   for_chunks(chunks.size(), 1, execution, [&](Range r) {
-    std::vector<std::uint32_t> narrow_places = places(counts_.narrow(), first_narrow_, chunks[r.first]);
+    // Where the chunk's walls go, tile by tile; `nothing` where the tile is not of the band.
+    const auto places = [&](const ChunkCounts& counts, const RawVector<std::uint32_t>& first) {
+      std::vector<std::uint32_t> next(first.begin(), first.end());
+      for (std::size_t tile = 0; tile < next.size(); ++tile) {
+        if (next[tile] != nothing) next[tile] += counts.before(chunks[r.first], tile);
+      }
+      return next;
+    };
+    std::vector<std::uint32_t> narrow_places = places(counts_.narrow(), first_narrow_);
     std::vector<std::uint32_t> wide_places;
-    if (counts_.any_wide()) wide_places = places(counts_.wide(), first_wide_, chunks[r.first]);
+    if (counts_.any_wide()) wide_places = places(counts_.wide(), first_wide_);
     std::uint32_t* const narrow = narrow_places.data();
     std::uint32_t* const wide = wide_places.data();
     NarrowWall* const narrow_walls = narrow_.data();
@@ -227,16 +217,6 @@ void WallPartition::scatter(std::span<const Wall> walls, std::span<const std::si
           });
     }
   });
-}
-
-/// Where a chunk's walls go, tile by tile; `nothing` where the tile is not of the band.
-std::vector<std::uint32_t> WallPartition::places(const ChunkCounts& counts, const RawVector<std::uint32_t>& first,
-                                                 std::size_t chunk) {
-  std::vector<std::uint32_t> next(first.begin(), first.end());
-  for (std::size_t tile = 0; tile < next.size(); ++tile) {
-    if (next[tile] != nothing) next[tile] += counts.before(chunk, tile);
-  }
-  return next;
 }
 
 TileWalls WallPartition::of(std::size_t tile) const {
@@ -420,10 +400,9 @@ void WallPartition::for_each_near(const Box&, const std::function<void(const Seg
 std::unique_ptr<TileSource> held_tiles(const WallSet& walls, std::span<const Segment> more, const TileGrid& grid,
                                        double halo, std::uint32_t bands, const Execution& execution) {
   if (OneTile::takes(walls, grid)) return std::make_unique<OneTile>(walls, more, grid, halo);
-  const auto choose = [&](const WallCounts& counts) {
-    return bands > 0 ? TileBands{std::min(bands, grid.tile_cols)} : choose_bands(counts, grid, execution);
-  };
-  return std::make_unique<WallPartition>(walls, more, grid, halo, execution, choose);
+  std::optional<TileBands> asked;
+  if (bands > 0) asked = TileBands{std::min(bands, grid.tile_cols)};
+  return std::make_unique<WallPartition>(walls, more, grid, halo, execution, asked);
 }
 
 std::unique_ptr<TileSource> cell_tiles(const CellWallSource& cells, const TileGrid& grid) {

@@ -23,6 +23,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -176,7 +177,10 @@ class ChunkCounts {
   /// A chunk's counts, to be filled in.
   std::uint32_t* counts(std::size_t chunk) { return before_.data() + (chunk + 1) * tiles_; }
   /// When all are filled in.
-  void add_up();
+  void add_up() {
+    std::fill_n(before_.begin(), tiles_, 0U);
+    for (std::size_t i = tiles_; i < before_.size(); ++i) before_[i] += before_[i - tiles_];
+  }
 
   /// Walls of the tile in the chunks before this one.
   std::uint32_t before(std::size_t chunk, std::size_t tile) const { return before_[chunk * tiles_ + tile]; }
@@ -197,7 +201,7 @@ class WallCounts {
   std::size_t tiles() const { return tiles_; }
   std::size_t chunks() const { return chunk_count(walls_, grain_); }
   /// Its walls.
-  Range chunk(std::size_t number) const;
+  Range chunk(std::size_t number) const { return {number * grain_, std::min(walls_, (number + 1) * grain_)}; }
   const ChunkCounts& narrow() const { return narrow_; }
   const ChunkCounts& wide() const { return wide_; }
   bool has(std::size_t chunk, std::size_t tile) const {
@@ -235,7 +239,13 @@ struct TileBands {
     return static_cast<std::uint32_t>(at * count / (by_rows ? grid.tile_rows : grid.tile_cols));
   }
   /// Ascending.
-  std::vector<std::size_t> tiles(const TileGrid& grid, std::uint32_t band) const;
+  std::vector<std::size_t> tiles(const TileGrid& grid, std::uint32_t band) const {
+    std::vector<std::size_t> tiles;
+    for (std::size_t tile = 0; tile < grid.count(); ++tile) {
+      if (of(grid, tile) == band) tiles.push_back(tile);
+    }
+    return tiles;
+  }
 };
 
 /// Asks the memory limit how much is left.
@@ -279,23 +289,17 @@ struct LooseTile {
 };
 
 /// Gives tiles; belongs to one thread.
-class TileReader {
+class TileReader : NotCopied {
  public:
-  TileReader() = default;
   virtual ~TileReader() = default;
-  TileReader(const TileReader&) = delete;
-  TileReader& operator=(const TileReader&) = delete;
   /// Good until the next one is read.
   virtual TileWalls read(std::size_t tile) = 0;
 };
 
 /// Immutable; any number of readers may be at work.
-class TileSource {
+class TileSource : NotCopied {
  public:
-  TileSource() = default;
   virtual ~TileSource() = default;
-  TileSource(const TileSource&) = delete;
-  TileSource& operator=(const TileSource&) = delete;
   /// Tiles are read fastest band by band, each after it was begun.
   virtual std::uint32_t band_count() const { return 1; }
   /// Returns the band's tiles, ascending. No reader may be at work. Throws as WallPartition.
@@ -310,14 +314,12 @@ class TileSource {
 /// Walls that are held, filed by tile. Any number of threads may read, but while a band is filed.
 class WallPartition : public TileSource {
  public:
-  using Choose = std::function<TileBands(const WallCounts&)>;
   /// `more` are a few walls beside the set (bounds), kept by reference, as are the walls, which begin_band() and
-  /// look_up() read. halo >= 0, in the world's unit. Where there is one band it is filed; else none is, yet. Throws
-  /// Stopped at the deadline or before memory would pass its limit, InputError where walls and tiles make 2^32 entries
-  /// or more.
-  WallPartition(
-      const WallSet& walls, std::span<const Segment> more, const TileGrid& grid, double halo,
-      const Execution& execution, const Choose& choose = [](const WallCounts&) { return TileBands(); });
+  /// look_up() read. halo >= 0, in the world's unit. bands; none: as choose_bands() says. Where there is one it is
+  /// filed; else none is, yet. Throws Stopped at the deadline or before memory would pass its limit, InputError where
+  /// walls and tiles make 2^32 entries or more.
+  WallPartition(const WallSet& walls, std::span<const Segment> more, const TileGrid& grid, double halo,
+                const Execution& execution, std::optional<TileBands> bands = TileBands());
 
   std::uint32_t band_count() const override { return bands_.count; }
   /// Files the walls of a band's tiles in the place of those before, and returns the tiles, ascending. Throws as above.
@@ -334,9 +336,6 @@ class WallPartition : public TileSource {
  private:
   static constexpr std::uint32_t nothing = ~std::uint32_t{0};
 
-  void make_room(std::size_t narrow, std::size_t wide, const Execution& execution);
-  static std::vector<std::uint32_t> places(const ChunkCounts& counts, const RawVector<std::uint32_t>& first,
-                                           std::size_t chunk);
   template <class Wall>
   void scatter(std::span<const Wall> walls, std::span<const std::size_t> chunks, const Execution& execution);
 

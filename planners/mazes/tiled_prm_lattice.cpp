@@ -2,12 +2,16 @@
 #include "planners/mazes/tiled_prm_lattice.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <memory>
+#include <numeric>
+#include <set>
 #include <utility>
 
 #include "core/base/error.hpp"
 #include "core/base/raw_vector.hpp"
 #include "parallel/asked_memory.hpp"
+#include "planners/graph/components.hpp"
 #include "planners/graph/no_path.hpp"
 
 namespace warren {
@@ -21,24 +25,6 @@ namespace {
 using Points = std::vector<Vec2>;
 /// Milestones that the start reaches, and those that the goal does.
 using PointsOfBoth = std::pair<Points, Points>;
-
-/// Marks the overlay vertices that `from` reaches, peeled ones included.
-void flood(const Overlay& overlay, VertexId from, std::uint8_t mark, RawVector<std::uint8_t>& marks,
-           const Execution& execution) {
-  std::vector<VertexId> stack{from};
-  marks[from] = mark;
-  std::uint64_t seen = 0;
-  while (!stack.empty()) {
-    if (++seen % 65536 == 0) execution.check();
-    const VertexId v = stack.back();
-    stack.pop_back();
-    for (const OverlayEnd& end : overlay.ends(v)) {
-      if (marks[end.target] != 0) continue;
-      marks[end.target] = mark;
-      push_asked(stack, end.target, execution);
-    }
-  }
-}
 
 /// Appends the milestones that the vertex reaches inside the plane's tile, and takes them off the plane.
 void flood_plane(TilePlane& plane, int first_col, int first_row, Points& points) {
@@ -68,6 +54,148 @@ Points joined_points(const std::vector<PointsOfBoth>& parts, Points PointsOfBoth
   for (const auto& part : parts) all.insert(all.end(), (part.*side).begin(), (part.*side).end());
   return all;
 }
+
+constexpr std::size_t legs_a_chunk = 1024;
+
+/// The first chain of so many steps between keys from < to of a tile; there must be one.
+const Chain& chain_between(const TileSummary& tile, std::uint32_t from, std::uint32_t to, std::uint32_t steps) {
+  const auto first = std::lower_bound(tile.chains.begin(), tile.chains.end(), from,
+                                      [](const Chain& chain, std::uint32_t key) { return chain.from < key; });
+  const auto found = std::find_if(first, tile.chains.end(),
+                                  [&](const Chain& chain) { return chain.to == to && chain.length == steps; });
+  assert(found != tile.chains.end() && found->from == from);
+  return *found;
+}
+
+constexpr Vec2 directions[4] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+
+/// Writes the vertices after v along a chain of v's tile, up to its other end.
+void walk_chain(const TileSummary& tile, const Chain& chain, bool forward, Vec2 at, Vec2* out) {
+  const std::uint8_t* steps = tile.steps.data() + chain.first_step;
+  for (std::uint32_t i = 0; i < chain.length; ++i) {
+    const unsigned direction = forward ? steps[i] : steps[chain.length - 1 - i] ^ 2U;
+    at = at + directions[direction];
+    *out++ = at;
+  }
+}
+
+/// Some legs in a row.
+struct PathPiece {
+  Range legs;
+  std::vector<std::size_t> tiles;  // those that it passes, ascending
+};
+
+/// A chain that a path takes: key numbers of its tile, the lower first.
+struct PathChain {
+  std::size_t tile;
+  std::uint16_t from, to;
+  std::uint32_t length;
+};
+
+/// A path of the overlay with all that its chains stand for, whole or in pieces: a piece needs the summaries of the
+/// tiles that it passes and no others. A leg leads from one vertex of the path to the next. Memory: 8 bytes a leg.
+/// Refers to all that it is made of.
+class PathExpansion {
+ public:
+  /// path: from start to goal. Throws Stopped.
+  PathExpansion(const Overlay& overlay, const TileGrid& grid, const OverlayEnds& ends, std::span<const VertexId> path,
+                const Execution& execution)
+      : overlay_(overlay), grid_(grid), ends_(ends), path_(path), execution_(execution) {
+    execution.reserve((leg_count() + 1) * sizeof(std::size_t));
+    first_.assign(leg_count() + 1, 1);
+    for_each_index(leg_count(), legs_a_chunk, execution.quiet(), [&](std::size_t i) {
+      const bool is_link = !overlay_.is_key(path_[i]) || !overlay_.is_key(path_[i + 1]);
+      first_[i + 1] = is_link ? 1 : overlay_.steps_between(path_[i], path_[i + 1]);
+    });
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+  }
+
+  std::size_t leg_count() const { return path_.size() - 1; }
+  std::size_t point_count() const { return first_.back(); }
+  /// Points of a piece, its first leg's beginning among them.
+  std::size_t point_count(Range legs) const { return first_[legs.last] - first_[legs.first] + 1; }
+  /// As many legs from `first` on as have so many points and pass so many tiles, at least one.
+  PathPiece piece_from(std::size_t first) const {
+    constexpr std::size_t most_points = std::size_t{1} << 20;
+    constexpr std::size_t most_tiles = 1024;
+    std::set<std::size_t> tiles;
+    std::size_t last_tile = grid_.count();
+    const auto pass = [&](VertexId v) {
+      if (!overlay_.is_key(v)) return;
+      const std::size_t tile = overlay_.tile_of(v);
+      if (tile != last_tile) tiles.insert(tile);
+      last_tile = tile;
+    };
+    pass(path_[first]);
+    std::size_t last = first;
+    while (last < leg_count()) {
+      if (last > first && (point_count({first, last}) >= most_points || tiles.size() >= most_tiles)) break;
+      if (last % legs_a_chunk == 0) execution_.check();
+      pass(path_[++last]);
+    }
+    return {{first, last}, {tiles.begin(), tiles.end()}};
+  }
+  /// Those of more than one step among these legs, in their order.
+  std::vector<PathChain> chains_of(Range legs) const {
+    std::vector<PathChain> chains;
+    for (std::size_t leg = legs.first; leg < legs.last; ++leg) {
+      if (leg % legs_a_chunk == 0) execution_.check();
+      if (first_[leg + 1] - first_[leg] > 1) chains.push_back(chain_of(leg));
+    }
+    return chains;
+  }
+  /// Writes the points of a piece, its first leg's beginning among them; `tiles` has the summaries by number. In
+  /// parallel. Throws Stopped.
+  void write(Range legs, std::span<const TileSummary> tiles, Vec2* out) const {
+    *out = place_of(path_[legs.first], tiles);
+    for_chunks(legs.size(), legs_a_chunk, execution_, [&](Range r) {
+      for (std::size_t leg = legs.first + r.first; leg < legs.first + r.last; ++leg) {
+        Vec2* const at = out + 1 + (first_[leg] - first_[legs.first]);
+        if (first_[leg + 1] - first_[leg] == 1) {
+          *at = place_of(path_[leg + 1], tiles);
+          continue;
+        }
+        const PathChain taken = chain_of(leg);
+        const TileSummary& tile = tiles[taken.tile];
+        const Chain& chain = chain_between(tile, taken.from, taken.to, taken.length);
+        walk_chain(tile, chain, path_[leg] < path_[leg + 1], place_of(path_[leg], tiles), at);
+      }
+    });
+  }
+  /// All points.
+  Path<Vec2> points(std::span<const TileSummary> tiles) const {
+    Path<Vec2> points;
+    reserve_touched(points, point_count(), execution_);
+    points.resize(point_count());  // not with a value: the library of g++ 12 is slow at that
+    write({0, leg_count()}, tiles, points.data());
+    return points;
+  }
+
+ private:
+  Vec2 place_of(VertexId v, std::span<const TileSummary> tiles) const {
+    if (v == overlay_.start()) return ends_.start.at;
+    if (v == overlay_.goal()) return ends_.goal.at;
+    const std::size_t tile = overlay_.tile_of(v);
+    const std::uint32_t local = tiles[tile].keys[v - overlay_.first_key(tile)];
+    const std::uint32_t side = grid_.side();
+    return TileGrid::point(grid_.first_col(tile) + local % side, grid_.first_row(tile) + local / side);
+  }
+  /// Of a leg of more than one step.
+  PathChain chain_of(std::size_t leg) const {
+    const std::size_t tile = overlay_.tile_of(path_[leg]);
+    const VertexId first = overlay_.first_key(tile);
+    const auto [low, high] = std::minmax(path_[leg], path_[leg + 1]);
+    return {tile, static_cast<std::uint16_t>(low - first), static_cast<std::uint16_t>(high - first),
+            static_cast<std::uint32_t>(first_[leg + 1] - first_[leg])};
+  }
+
+  const Overlay& overlay_;
+  const TileGrid& grid_;
+  const OverlayEnds& ends_;
+  std::span<const VertexId> path_;
+  const Execution& execution_;
+  std::vector<std::size_t> first_;  // where the points of each leg go, its beginning not counted; and the end
+};
 
 /// One plan: what its stages share.
 class TiledPlan {
@@ -221,7 +349,7 @@ class TiledPlan {
     taker.begin(path.point_count());
     RawVector<Vec2> points;
     for (std::size_t leg = 0; leg < path.leg_count();) {
-      const PathPiece piece = path.piece_from(leg, most_points, most_tiles);
+      const PathPiece piece = path.piece_from(leg);
       {
         const StageTimer timer(execution_, "search", solution_.seconds.search, piece.tiles.size());
         expand(path, piece);
@@ -321,57 +449,51 @@ class TiledPlan {
       check_borders(grid_, tiles_, execution_);
       overlay_.emplace(grid_, tiles_, ends_, execution_);
     }
-    execution_.reserve(overlay_->vertex_count());
-    RawVector<std::uint8_t> marks(overlay_->vertex_count());
-    std::fill(marks.begin(), marks.end(), std::uint8_t{0});
-    flood(*overlay_, overlay_->start(), of_start, marks, execution_);
-    flood(*overlay_, overlay_->goal(), of_goal, marks, execution_);
+    const RawVector<VertexId> label =  // peeled vertices among them
+        joined_labels(overlay_->vertex_count(), execution_.quiet(), [&](VertexId v, const auto& join) {
+          for (const OverlayEnd& end : overlay_->ends(v)) join(end.target);
+        });
     execution_.reserve(grid_.count() * sizeof(PointsOfBoth));
     std::vector<PointsOfBoth> parts(grid_.count());
     for (std::uint32_t band = 0; band < source_->band_count(); ++band) {
       const std::vector<std::size_t> tiles = source_->begin_band(band, execution_);
       for_chunks(tiles.size(), 1, execution_,
-                 [&](Range r) { parts[tiles[r.first]] = reached_points(tiles[r.first], marks); });
+                 [&](Range r) { parts[tiles[r.first]] = reached_points(tiles[r.first], label); });
     }
     return separation_between<2>(joined_points(parts, &PointsOfBoth::first, ends_.start.at, execution_),
                                  joined_points(parts, &PointsOfBoth::second, ends_.goal.at, execution_), execution_);
   }
 
-  /// The tile's roadmap, as before its reduction.
-  void make_plane(std::size_t tile, TilePlane& plane) const {
+  /// The milestones that the tile's keys of both components reach inside it; label: of each key's component.
+  PointsOfBoth reached_points(std::size_t tile, const RawVector<VertexId>& label) const {
+    const std::span<const VertexId> own(label.data() + overlay_->first_key(tile),
+                                        label.data() + overlay_->first_key(tile + 1));
+    const VertexId of_start = label[overlay_->start()];
+    const VertexId of_goal = label[overlay_->goal()];
+    const auto is_of_one = [&](VertexId of_key) { return of_key == of_start || of_key == of_goal; };
+    if (std::none_of(own.begin(), own.end(), is_of_one)) return {};
+    const LatticeTiles made = tiles_made();
+    const std::unique_ptr<TileReader> reader = source_->reader();
     WallMarker marker(clearance_);
-    tiles_made().make_plane(tile, *source_->reader(), marker, plane);
-  }
-
-  /// The milestones that the tile's marked keys reach inside it.
-  PointsOfBoth reached_points(std::size_t tile, const RawVector<std::uint8_t>& marks) const {
-    const std::span<const std::uint8_t> own(marks.data() + overlay_->first_key(tile),
-                                            marks.data() + overlay_->first_key(tile + 1));
-    if (std::all_of(own.begin(), own.end(), [](std::uint8_t mark) { return mark == 0; })) return {};
-    TilePlane plane(grid_, WallMarker(clearance_).margin());
+    TilePlane plane(grid_, marker.margin());
     execution_.reserve(std::size_t{grid_.side()} * grid_.side() * sizeof(Vec2));
     std::vector<std::uint16_t> keys;
     if (tiles_.empty()) {
-      make_plane(tile, plane);
-      tiles_made().keep_linked(plane);
+      made.make_plane(tile, *reader, marker, plane);
+      made.keep_linked(plane);
       keys = TileReduction(plane).reduce(plane).keys;
     } else {
       keys = tiles_[tile].keys;
     }
-    make_plane(tile, plane);
+    made.make_plane(tile, *reader, marker, plane);
     PointsOfBoth points;
     for (std::size_t k = 0; k < keys.size(); ++k) {
-      if (own[k] == 0) continue;
+      if (!is_of_one(own[k])) continue;
       const int side = static_cast<int>(grid_.side());
       flood_plane(plane, keys[k] % side, keys[k] / side, own[k] == of_start ? points.first : points.second);
     }
     return points;
   }
-
-  static constexpr std::uint8_t of_start = 1;  // marks of keys
-  static constexpr std::uint8_t of_goal = 2;
-  static constexpr std::size_t most_points = std::size_t{1} << 20;  // of a piece of the path
-  static constexpr std::size_t most_tiles = 1024;
 
   const TiledProblem& problem_;
   const Execution& execution_;

@@ -49,12 +49,9 @@ struct TileChain {
   std::uint32_t length;
 };
 
-class OtherTiles {
+class OtherTiles : NotCopied {
  public:
-  OtherTiles() = default;
   virtual ~OtherTiles() = default;
-  OtherTiles(const OtherTiles&) = delete;
-  OtherTiles& operator=(const OtherTiles&) = delete;
   /// All tiles' summaries without steps. Dead ends of the overlay may be gone from them, the others' keys in their
   /// order; components that are gone with them are counted as closed. Throws Stopped.
   virtual std::vector<TileSummary> reduce_all(const OverlayEnds& ends, const Execution& execution) = 0;

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "core/base/solution.hpp"
+#include "core/base/types.hpp"
 #include "planners/graph/any_world.hpp"
 #include "planners/graph/components.hpp"
 #include "planners/graph/hierarchy.hpp"
@@ -30,9 +31,9 @@
 namespace warren {
 
 /// A roadmap ready to be asked: with the index that attaches start and goal, and with what is known of its edges, which
-/// questions add to. Refers to the world, and to the hierarchy where it has one.
+/// questions add to. Refers to the world, and to the hierarchy where it has one; its index looks at its states.
 template <World W>
-struct AskedRoadmap {
+struct AskedRoadmap : NotCopied {
   using State = typename W::State;
 
   /// lazy: the roadmap is lazy_prm's, whose searches run so. Throws Stopped.
@@ -46,7 +47,7 @@ struct AskedRoadmap {
         rule(its_rule),
         is_lazy(lazy),
         hierarchy(its_hierarchy),
-        index(index_of_states(world, std::span<const State>(states), execution)) {
+        index(index_of_states(world, states, execution)) {
     if (is_lazy) return;
     const Graph free = free_part(candidates, edge_states, execution);
     if constexpr (W::one_way) {
@@ -57,10 +58,6 @@ struct AskedRoadmap {
       component_labels = components(free, execution);
     }
   }
-
-  AskedRoadmap(const AskedRoadmap&) = delete;  // the index looks at the states
-  AskedRoadmap& operator=(const AskedRoadmap&) = delete;
-  ~AskedRoadmap() = default;
 
   /// All that was learnt so far; while nobody asks.
   std::span<const std::uint64_t> edge_states() const { return known.words(); }
@@ -78,99 +75,6 @@ struct AskedRoadmap {
   bool is_stringy = false;
   Components component_labels;
 };
-
-namespace detail {
-
-/// The neighbours that the search of a question sees: those of the roadmap, and start and goal as two vertices more.
-/// What is not known of an edge is asked of the world when the search wants it, and kept. One a thread. Refers to all
-/// that it is given.
-template <World W>
-class AskedNeighbours {
- public:
-  using State = typename W::State;
-  AskedNeighbours(const AskedRoadmap<W>& roadmap, const std::array<State, 2>& ends, std::span<const Edge> end_edges,
-                  std::vector<Edge>* used, const Execution& execution)
-      : roadmap_(&roadmap),
-        ends_(&ends),
-        end_edges_(end_edges),
-        used_(used),
-        execution_(&execution),
-        query_(roadmap.world.make_query()) {}
-
-  const State& state(VertexId v) const {
-    const std::size_t n = roadmap_->states.size();
-    return v < n ? roadmap_->states[v] : (*ends_)[v - n];
-  }
-  double distance(VertexId v, VertexId w) const { return roadmap_->world.distance(state(v), state(w)); }
-  double cost(VertexId v, VertexId w) const { return roadmap_->world.cost(state(v), state(w)); }
-
-  void operator()(VertexId v, const AnyVisit& visit) {
-    if (v < roadmap_->states.size()) {
-      std::size_t end = roadmap_->candidates.first_end(v);
-      for (const VertexId w : roadmap_->candidates.neighbours(v)) visit_if_free(v, w, end++, visit);
-    }
-    for (const Edge& e : end_edges_) {
-      if (e.from == v) visit_end(v, e.to, visit);
-      if (e.to == v && !one_way) visit_end(v, e.from, visit);
-    }
-  }
-  Counters counters() const {
-    Counters all = counters_;
-    all.refused = refused_motions(query_);
-    return all;
-  }
-  std::uint64_t free_edges() const { return free_edges_; }
-
- private:
-  static constexpr bool one_way = W::one_way;
-  static constexpr std::uint64_t checks_per_poll = 64;
-
-  void visit_if_free(VertexId v, VertexId w, std::size_t end, const AnyVisit& visit) {
-    const EdgeState known = roadmap_->known[end];
-    if (known == EdgeState::blocked || !visit.wants(w, 0.0)) return;
-    const double length = distance(v, w);
-    if (!visit.wants(w, length)) return;
-    if (known == EdgeState::unchecked && !asked(v, w, end)) return;
-    ++free_edges_;
-    if (used_ != nullptr) used_->push_back(one_way ? Edge{v, w} : Edge{std::min(v, w), std::max(v, w)});
-    visit(w, roadmap_->world.motion_cost ? cost(v, w) : length);
-  }
-  /// An edge of start or goal. Of lazy roadmaps whose edges lead one way it is asked about here, as one_way_prm does.
-  void visit_end(VertexId v, VertexId w, const AnyVisit& visit) {
-    const double length = distance(v, w);
-    if (one_way && roadmap_->is_lazy) {
-      if (!visit.wants(w, length)) return;
-      if (++counters_.edges_checked % checks_per_poll == 0) execution_->check();
-      if (!roadmap_->world.is_free_motion(state(v), state(w), query_)) return;
-      ++counters_.edges_free;
-      ++free_edges_;
-    }
-    visit(w, roadmap_->world.motion_cost ? cost(v, w) : length);
-  }
-  /// Asks the world; remembers at both ends.
-  bool asked(VertexId v, VertexId w, std::size_t end) {
-    if (++counters_.edges_checked % checks_per_poll == 0) execution_->check();
-    const VertexId from = one_way ? v : std::min(v, w);
-    const VertexId to = one_way ? w : std::max(v, w);
-    const bool free = roadmap_->world.is_free_motion(state(from), state(to), query_);
-    counters_.edges_free += free ? 1 : 0;
-    const EdgeState answer = free ? EdgeState::free : EdgeState::blocked;
-    roadmap_->known.learn(end, answer);
-    if (!one_way) roadmap_->known.learn(end_of_edge(roadmap_->candidates, w, v), answer);
-    return free;
-  }
-
-  const AskedRoadmap<W>* roadmap_;
-  const std::array<State, 2>* ends_;
-  std::span<const Edge> end_edges_;
-  std::vector<Edge>* used_;
-  const Execution* execution_;
-  typename W::Query query_;
-  Counters counters_;
-  std::uint64_t free_edges_ = 0;
-};
-
-}  // namespace detail
 
 /// What one thread asks with: kept from one question to the next, it costs what a question touches.
 struct AskScratch {
@@ -216,21 +120,94 @@ class Ask {
 
  private:
   static constexpr bool one_way = W::one_way;
+
+  /// The neighbours that the search of the question sees: those of the roadmap, and start and goal as two vertices
+  /// more. What is not known of an edge is asked of the world when the search wants it, and kept. One a thread. Refers
+  /// to the question and what it is given.
+  class AskedNeighbours {
+   public:
+    AskedNeighbours(const Ask& ask, std::vector<Edge>* used)
+        : ask_(ask), roadmap_(ask.roadmap_), used_(used), query_(ask.world_.make_query()) {}
+
+    void operator()(VertexId v, const AnyVisit& visit) {
+      if (v < roadmap_.states.size()) {
+        std::size_t end = roadmap_.candidates.first_end(v);
+        for (const VertexId w : roadmap_.candidates.neighbours(v)) visit_if_free(v, w, end++, visit);
+      }
+      for (const Edge& e : ask_.end_edges_) {
+        if (e.from == v) visit_end(v, e.to, visit);
+        if (e.to == v && !one_way) visit_end(v, e.from, visit);
+      }
+    }
+    Counters counters() const {
+      Counters all = counters_;
+      all.refused = refused_motions(query_);
+      return all;
+    }
+    std::uint64_t free_edges() const { return free_edges_; }
+
+   private:
+    static constexpr std::uint64_t checks_per_poll = 64;
+
+    void visit_if_free(VertexId v, VertexId w, std::size_t end, const AnyVisit& visit) {
+      const EdgeState known = roadmap_.known[end];
+      if (known == EdgeState::blocked || !visit.wants(w, 0.0)) return;
+      const double length = ask_.distance(v, w);
+      if (!visit.wants(w, length)) return;
+      if (known == EdgeState::unchecked && !asked(v, w, end)) return;
+      ++free_edges_;
+      if (used_ != nullptr) used_->push_back(one_way ? Edge{v, w} : Edge{std::min(v, w), std::max(v, w)});
+      visit(w, ask_.world_.motion_cost ? ask_.cost(v, w) : length);
+    }
+    /// An edge of start or goal. Of lazy roadmaps whose edges lead one way it is asked about here, as one_way_prm does.
+    void visit_end(VertexId v, VertexId w, const AnyVisit& visit) {
+      const double length = ask_.distance(v, w);
+      if (one_way && roadmap_.is_lazy) {
+        if (!visit.wants(w, length)) return;
+        if (++counters_.edges_checked % checks_per_poll == 0) ask_.execution_.check();
+        if (!ask_.world_.is_free_motion(ask_.state(v), ask_.state(w), query_)) return;
+        ++counters_.edges_free;
+        ++free_edges_;
+      }
+      visit(w, ask_.world_.motion_cost ? ask_.cost(v, w) : length);
+    }
+    /// Asks the world; remembers at both ends.
+    bool asked(VertexId v, VertexId w, std::size_t end) {
+      if (++counters_.edges_checked % checks_per_poll == 0) ask_.execution_.check();
+      const VertexId from = one_way ? v : std::min(v, w);
+      const VertexId to = one_way ? w : std::max(v, w);
+      const bool free = ask_.world_.is_free_motion(ask_.state(from), ask_.state(to), query_);
+      counters_.edges_free += free ? 1 : 0;
+      const EdgeState answer = free ? EdgeState::free : EdgeState::blocked;
+      roadmap_.known.learn(end, answer);
+      if (!one_way) roadmap_.known.learn(end_of_edge(roadmap_.candidates, w, v), answer);
+      return free;
+    }
+
+    const Ask& ask_;
+    const AskedRoadmap<W>& roadmap_;
+    std::vector<Edge>* used_;
+    typename W::Query query_;
+    Counters counters_;
+    std::uint64_t free_edges_ = 0;
+  };
+
+  const State& state(VertexId v) const {
+    const std::size_t n = roadmap_.states.size();
+    return v < n ? roadmap_.states[v] : ends_[v - n];
+  }
+  double distance(VertexId v, VertexId w) const { return world_.distance(state(v), state(w)); }
+  double cost(VertexId v, VertexId w) const { return world_.cost(state(v), state(w)); }
   VertexId start_vertex() const { return static_cast<VertexId>(roadmap_.states.size()); }
   VertexId goal_vertex() const { return start_vertex() + 1; }
   std::size_t vertex_count() const { return roadmap_.states.size() + 2; }
   /// Of a lazy roadmap it is learnt on the way.
   bool tells_separation() const { return scratch_.tells_separation || roadmap_.is_lazy; }
-  AskedNeighbours<W> neighbours(std::vector<Edge>* used) const {
-    return {roadmap_, ends_, end_edges_, used, execution_};
-  }
   ImplicitSearch asked(const VertexDistance& estimate) const {
     return {estimate, options_.search == SearchKind::astar, options_.queue, vertex_count(), execution_};
   }
   auto estimate() const {
-    return [this, places = neighbours(nullptr)](VertexId v, VertexId to) {
-      return estimated_way(world_, options_.heuristic, places.state(v), places.state(to));
-    };
+    return [this](VertexId v, VertexId to) { return estimated_way(world_, options_.heuristic, state(v), state(to)); };
   }
 
   void attach_ends() {
@@ -253,12 +230,11 @@ class Ask {
   }
   void attach_one_way(std::size_t end, Heading heading) {
     auto query = world_.make_query();
-    std::vector<Neighbour> near;
     const State& here = ends_[end];
     const auto vertex = static_cast<VertexId>(start_vertex() + end);
     ++solution_.counters.neighbour_queries;
-    for (const Neighbour& c : one_way_candidates<W>(world_, roadmap_.states, roadmap_.index, roadmap_.rule, here,
-                                                    no_vertex, heading, near)) {
+    for (const Neighbour& c :
+         one_way_candidates<W>(world_, roadmap_.states, roadmap_.index, roadmap_.rule, here, no_vertex, heading)) {
       const State& there = roadmap_.states[c.id];
       const bool out = heading == Heading::out;
       if (!(out ? may_be_free(here, there, query) : may_be_free(there, here, query))) continue;
@@ -294,11 +270,10 @@ class Ask {
     solution_.counters.expanded += found.expanded;
     if (found.path.empty()) return;
     solution_.outcome = Outcome::solved;
-    const AskedNeighbours<W> places = neighbours(nullptr);
-    for (const VertexId v : found.path) solution_.path.push_back(places.state(v));
+    for (const VertexId v : found.path) solution_.path.push_back(state(v));
   }
   SearchResult search_plainly(VertexId from, VertexId to, SearchState& state) {
-    AskedNeighbours<W> seen = neighbours(keep_ ? &used_ : nullptr);
+    AskedNeighbours seen(*this, keep_ ? &used_ : nullptr);
     const auto estimate = this->estimate();
     const SearchResult found = search_implicit(AnyNeighbours(seen), from, to, asked(VertexDistance(estimate)), state);
     if (found.status == SearchStatus::stopped) execution_.check();
@@ -307,8 +282,8 @@ class Ask {
   }
   SearchResult search_both_ends() {
     std::array<std::vector<Edge>, 2> used;
-    std::array<AskedNeighbours<W>, 2> seen{neighbours(keep_ ? &used[0] : nullptr),
-                                           neighbours(keep_ ? &used[1] : nullptr)};
+    std::array<AskedNeighbours, 2> seen{AskedNeighbours(*this, keep_ ? &used[0] : nullptr),
+                                        AskedNeighbours(*this, keep_ ? &used[1] : nullptr)};
     const auto estimate = this->estimate();
     const SearchResult found = search_implicit_from_both_ends(
         {AnyNeighbours(seen[0]), AnyNeighbours(seen[1])}, {start_vertex(), goal_vertex()},
@@ -323,12 +298,11 @@ class Ask {
   /// On a copy of what is free, as the planner searches it.
   SearchResult search_copy() {
     const Graph graph = free_graph();
-    const AskedNeighbours<W> places = neighbours(nullptr);
-    const auto cost = [&](VertexId v, VertexId w) { return places.cost(v, w); };
+    const auto length = [&](VertexId v, VertexId w) { return cost(v, w); };
     const auto estimate = this->estimate();
     const RoadmapSearch asked{.start = start_vertex(),
                               .goal = goal_vertex(),
-                              .length = VertexDistance(cost),
+                              .length = VertexDistance(length),
                               .estimate = VertexDistance(estimate),
                               .search = options_.search,
                               .queue = options_.queue,
@@ -338,9 +312,8 @@ class Ask {
     return search_roadmap(graph, asked);
   }
   SearchResult search_hierarchy() {
-    const AskedNeighbours<W> places = neighbours(nullptr);
     std::vector<double> lengths;
-    for (const Edge& e : end_edges_) lengths.push_back(places.distance(e.from, e.to));
+    for (const Edge& e : end_edges_) lengths.push_back(distance(e.from, e.to));
     return route_by_hierarchy(*roadmap_.hierarchy, end_edges_, lengths, scratch_.hierarchy, execution_);
   }
   /// Are start and goal joined? Nothing where that is not known before the search. Counts the components, start and
@@ -389,11 +362,9 @@ class Ask {
     const Graph graph = free_graph();
     const Components parts = one_way ? reached_and_reaching(graph, start_vertex(), goal_vertex(), execution_)
                                      : components(graph, execution_);
-    const RawVector<State> states = all_states();
-    solution_.separation =
-        separation_of(world_, std::span<const State>(states), parts, start_vertex(), goal_vertex(), execution_);
+    solution_.separation = separation_of(world_, all_states(), parts, start_vertex(), goal_vertex(), execution_);
   }
-  void count(const AskedNeighbours<W>& seen) {
+  void count(const AskedNeighbours& seen) {
     solution_.counters += seen.counters();
     if (roadmap_.is_lazy) solution_.roadmap.edges += seen.free_edges();
   }
@@ -401,11 +372,9 @@ class Ask {
   Graph free_graph() const {
     execution_.reserve((roadmap_.candidates.targets().size() + 2 * end_edges_.size()) * sizeof(VertexId));
     std::vector<Edge> sorted;
-    const AskedNeighbours<W> places = neighbours(nullptr);
     auto query = world_.make_query();
     for (const Edge& e : end_edges_) {
-      if (one_way && roadmap_.is_lazy && !world_.is_free_motion(places.state(e.from), places.state(e.to), query))
-        continue;
+      if (one_way && roadmap_.is_lazy && !world_.is_free_motion(state(e.from), state(e.to), query)) continue;
       sorted.push_back(e);
       if (!one_way) sorted.push_back({e.to, e.from});
     }

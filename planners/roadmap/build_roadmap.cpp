@@ -48,7 +48,8 @@ Components reached_and_reaching(const Graph& graph, VertexId from, VertexId to, 
 }
 
 Graph one_way_graph(std::size_t vertex_count, const EdgeParts& edges, const Execution& execution) {
-  const std::uint64_t ends = detail::total_edges(edges);
+  std::uint64_t ends = 0;
+  for (const RawVector<Edge>& part : edges) ends += part.size();
   if (ends >= std::numeric_limits<EdgeEnd>::max())
     throw InputError("roadmap", "more than 2^32 - 1 edges; ask for fewer samples or neighbours");
   execution.reserve((vertex_count + 1) * 2 * sizeof(EdgeEnd) + ends * sizeof(VertexId));

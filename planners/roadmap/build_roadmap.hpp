@@ -188,12 +188,10 @@ EdgeParts one_way_edges(const W& world, std::span<const typename W::State> state
   constexpr std::size_t grain = 64;
   return parts_of_chunks(begins, grain, execution, [&](Range r) {
     RawVector<Edge> edges;
-    std::vector<Neighbour> near;
     for (std::size_t i = r.first; i < r.last; ++i) {
       const auto v = static_cast<VertexId>(i);
       const VertexId except = v < index.size() ? v : no_vertex;
-      for (const Neighbour& c :
-           one_way_candidates<W>(world, states, index, rule, states[v], except, Heading::out, near)) {
+      for (const Neighbour& c : one_way_candidates<W>(world, states, index, rule, states[v], except, Heading::out)) {
         push_asked(edges, {v, c.id}, execution);
       }
     }
@@ -238,41 +236,39 @@ class RoadmapBuild {
     }
     {
       const StageTimer timer(execution_, "neighbours", built_.seconds.neighbours, built_.states.size());
-      index_ = index_of_states(world_, std::span<const State>(built_.states), execution_);
+      index_ = index_of_states(world_, built_.states, execution_);
     }
     const StageTimer timer(execution_, "connect", built_.seconds.connect, built_.states.size());
     built_.rule = connection_rule_for(world_, options_, samples);
-    find_candidates(index_);
-    const std::span<const State> states(built_.states);
+    find_candidates();
     if (check) {
-      built_.edge_states = check_edges(world_, states, built_.candidates, execution_, built_.counters, known_);
+      built_.edge_states = check_edges(world_, built_.states, built_.candidates, execution_, built_.counters, known_);
     } else {
       built_.edge_states.assign(edge_state_words(built_.candidates.targets().size()), 0);
     }
   }
-  void find_candidates(const StateIndex<W>& index) {
-    const std::span<const State> states(built_.states);
+  void find_candidates() {
+    const RawVector<State>& states = built_.states;
     if constexpr (W::one_way) {
-      const EdgeParts parts = one_way_edges(world_, states, states.size(), index, built_.rule, execution_);
+      const EdgeParts parts = one_way_edges(world_, states, states.size(), index_, built_.rule, execution_);
       built_.candidates = one_way_graph(states.size(), parts, execution_);
       built_.counters.neighbour_queries += states.size();
     } else {
-      const EdgeParts parts = candidate_edges(world_, states, index, built_.rule, execution_, built_.counters);
+      const EdgeParts parts = candidate_edges(world_, states, index_, built_.rule, execution_, built_.counters);
       built_.candidates = assemble_graph(states.size(), parts, execution_);
     }
   }
-  RawVector<Edge> attached(const State& state, VertexId vertex) const {
-    Counters counters;
-    const std::span<const State> states(built_.states);
+  /// From milestones that a free motion joins the state with, to no vertex.
+  RawVector<Edge> attached(const State& state) const {
     if constexpr (!W::one_way) {
-      return attach(world_, states, index_, built_.rule, state, vertex, counters);
+      Counters counters;
+      return attach(world_, built_.states, index_, built_.rule, state, no_vertex, counters);
     } else {
       auto query = world_.make_query();
-      std::vector<Neighbour> near;
       RawVector<Edge> edges;
       for (const Neighbour& c :
-           one_way_candidates<W>(world_, states, index_, built_.rule, state, no_vertex, Heading::out, near)) {
-        if (world_.is_free_motion(state, states[c.id], query)) edges.push_back({c.id, vertex});
+           one_way_candidates<W>(world_, built_.states, index_, built_.rule, state, no_vertex, Heading::out)) {
+        if (world_.is_free_motion(state, built_.states[c.id], query)) edges.push_back({c.id, no_vertex});
       }
       return edges;
     }
@@ -282,27 +278,29 @@ class RoadmapBuild {
   std::vector<VertexId> joined_probes() {
     constexpr std::uint64_t probe_stream = 0x70726f6265;  // apart from the seeds that people choose
     const StageTimer timer(execution_, "probe", built_.seconds.search, probes);
-    const Graph free = free_part(built_.candidates, built_.edge_states, execution_);
     const auto n = static_cast<VertexId>(built_.states.size());
-    std::vector<RawVector<Edge>> edges(probes + 1);
-    execution_.reserve(free.targets().size() * sizeof(Edge));
-    edges[0].reserve(free.targets().size());
-    for (VertexId v = 0; v < n; ++v) {
-      if (v % (1U << 14) == 0) execution_.check();
-      for (const VertexId w : free.neighbours(v)) edges[0].push_back({v, w});
-    }
+    EdgeParts edges(probes);
     for_chunks(probes, 1, execution_, [&](Range r) {
       const State state = uniform_state(world_, options_.seed ^ probe_stream, r.first);
       auto own = world_.make_query();
-      if (world_.is_free(state, own)) edges[r.first + 1] = attached(state, n + static_cast<VertexId>(r.first));
+      if (world_.is_free(state, own)) edges[r.first] = attached(state);
     });
-    const Components parts = components(assemble_graph(n + probes, edges, execution_), execution_);
+    const RawVector<VertexId> label = joined_labels(n + probes, execution_, [&](VertexId v, const auto& join) {
+      if (v >= n) {
+        for (const Edge& e : edges[v - n]) join(e.from);
+        return;
+      }
+      std::size_t end = built_.candidates.first_end(v);
+      for (const VertexId w : built_.candidates.neighbours(v)) {
+        if (edge_state(built_.edge_states, end++) == EdgeState::free) join(w);
+      }
+    });
     std::vector<VertexId> first_with(n + probes, no_vertex);
     std::vector<VertexId> joined;
     for (std::size_t i = 0; i < probes; ++i) {
-      VertexId& first = first_with[parts.label[n + i]];
+      VertexId& first = first_with[label[n + i]];
       if (first == no_vertex) first = static_cast<VertexId>(i);
-      joined.push_back(edges[i + 1].empty() ? no_vertex : first);
+      joined.push_back(edges[i].empty() ? no_vertex : first);
     }
     return joined;
   }

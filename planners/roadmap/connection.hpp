@@ -37,12 +37,6 @@ inline constexpr std::size_t connection_grain = std::same_as<typename W::State, 
 template <World W>
 inline constexpr std::uint32_t bunches_per_clock = std::same_as<typename W::State, Vec2> ? 32 : 1;
 
-inline std::uint64_t total_edges(const EdgeParts& parts) {
-  std::uint64_t total = 0;
-  for (const auto& part : parts) total += part.size();
-  return total;
-}
-
 /// The k nearest of each milestone, flat: row i holds counts[i] of k places.
 struct NearestLists {
   std::uint32_t k = 0;
@@ -73,24 +67,6 @@ NearestLists nearest_lists(std::span<const typename W::State> milestones, const 
 /// Start and goal are joined directly when they are no farther apart than this.
 inline double direct_reach(const ConnectionRule& rule) {
   return rule.neighbours > 0 ? std::numeric_limits<double>::infinity() : rule.radius;
-}
-
-/// Calls candidate(i, j) for each candidate edge that the milestones i of the range are to check, i ascending; over all
-/// milestones each pair comes once.
-template <World W, class Candidate>
-void for_each_candidate(const StateIndex<W>& index, const detail::NearestLists& lists, const SearchRadius& radius,
-                        Range milestones, const Candidate& candidate) {
-  if (lists.k == 0) {
-    index.for_each_later_pair(milestones, radius, candidate);
-    return;
-  }
-  for (std::size_t next = milestones.first; next < milestones.last; ++next) {
-    const auto i = static_cast<VertexId>(next);
-    for (const VertexId j : lists.of(i)) {
-      const auto theirs = lists.of(j);
-      if (j > i || std::find(theirs.begin(), theirs.end(), i) == theirs.end()) candidate(i, j);
-    }
-  }
 }
 
 namespace detail {
@@ -138,10 +114,18 @@ EdgeParts edges_that(const W& world, std::span<const typename W::State> mileston
         push_asked(edges, bunch.edges()[static_cast<std::size_t>(std::countr_zero(kept))], execution);
       bunch.clear();
     };
-    for_each_candidate<W>(index, lists, radius, r, [&](VertexId from, VertexId to) {
+    const auto add = [&](VertexId from, VertexId to) {
       bunch.add({from, to}, milestones[from], milestones[to]);
       if (bunch.full()) flush();
-    });
+    };
+    if (lists.k == 0) index.for_each_later_pair(r, radius, add);
+    for (std::size_t next = r.first; lists.k > 0 && next < r.last; ++next) {
+      const auto i = static_cast<VertexId>(next);
+      for (const VertexId j : lists.of(i)) {  // each pair once
+        const auto theirs = lists.of(j);
+        if (j > i || std::find(theirs.begin(), theirs.end(), i) == theirs.end()) add(i, j);
+      }
+    }
     if (!bunch.edges().empty()) flush();
     return edges;
   });
@@ -181,41 +165,6 @@ EdgeParts connect_milestones(const W& world, std::span<const typename W::State> 
   return parts;
 }
 
-namespace detail {
-
-/// The free edges from `vertex` to the milestones within a radius that grows until there are any.
-template <World W>
-RawVector<Edge> attach_within_growing_radius(const W& world, std::span<const typename W::State> milestones,
-                                             const StateIndex<W>& index, const ConnectionRule& rule,
-                                             const typename W::State& state, VertexId vertex, Counters& counters) {
-  auto query = world.make_query();
-  const auto at = embedded(world, state);
-  RawVector<Edge> edges;
-  std::vector<Neighbour> near;
-  double radius = rule.attach->radius.value_or(rule.radius);
-  if (!(radius > 0.0)) {  // as far as the k nearest
-    index.nearest(at, rule.neighbours, no_vertex, near);
-    if (near.empty()) return edges;
-    radius = near.back().distance;
-  }
-  const double step = rule.attach->step.value_or(0.5 * radius);
-  std::size_t tried = 0;
-  for (std::uint32_t attempt = 0; attempt < rule.attach->tries && edges.empty(); ++attempt) {
-    if (tried == milestones.size()) break;
-    ++counters.neighbour_queries;
-    index.within(at, SearchRadius(radius + attempt * step), no_vertex, near);
-    for (; tried < near.size(); ++tried) {
-      ++counters.edges_checked;
-      if (world.is_free_motion(state, milestones[near[tried].id], query)) edges.push_back({near[tried].id, vertex});
-    }
-  }
-  counters.edges_free += edges.size();
-  counters.refused += refused_motions(query);
-  return edges;
-}
-
-}  // namespace detail
-
 /// The free edges from `vertex` (start or goal, which stands at `state` and is no milestone) to milestones: those
 /// within the rule; where none of them is free, to the nearest free one of the 256 nearest. Or, where the rule says so,
 /// those within a radius that grows.
@@ -223,32 +172,43 @@ template <World W>
 RawVector<Edge> attach(const W& world, std::span<const typename W::State> milestones, const StateIndex<W>& index,
                        const ConnectionRule& rule, const typename W::State& state, VertexId vertex,
                        Counters& counters) {
-  if (rule.attach) {
-    return detail::attach_within_growing_radius(world, milestones, index, rule, state, vertex, counters);
-  }
   constexpr std::size_t farthest = 256;
   auto query = world.make_query();
   const auto at = embedded(world, state);
   RawVector<Edge> edges;
   std::vector<Neighbour> near;
-  const auto try_all = [&](bool first_only) {
+  std::size_t tried = 0;
+  const auto try_rest = [&](bool first_only) {
     ++counters.neighbour_queries;
-    for (const Neighbour& n : near) {
+    for (; tried < near.size() && !(first_only && !edges.empty()); ++tried) {
       ++counters.edges_checked;
-      if (!world.is_free_motion(state, milestones[n.id], query)) continue;
-      edges.push_back({n.id, vertex});
-      if (first_only) return;
+      if (world.is_free_motion(state, milestones[near[tried].id], query)) edges.push_back({near[tried].id, vertex});
     }
   };
-  if (rule.neighbours > 0) {
-    index.nearest(at, rule.neighbours, no_vertex, near);
-  } else {
+  const auto look = [&] {
+    if (rule.neighbours > 0) return index.nearest(at, rule.neighbours, no_vertex, near);
     index.within(at, rule.radius, no_vertex, near);
-  }
-  try_all(false);
-  if (edges.empty()) {
-    index.nearest(at, farthest, no_vertex, near);
-    try_all(true);
+  };
+  if (rule.attach) {
+    double radius = rule.attach->radius.value_or(rule.radius);
+    if (!(radius > 0.0)) {  // as far as the k nearest
+      index.nearest(at, rule.neighbours, no_vertex, near);
+      if (near.empty()) return edges;
+      radius = near.back().distance;
+    }
+    const double step = rule.attach->step.value_or(0.5 * radius);
+    for (std::uint32_t i = 0; i < rule.attach->tries && edges.empty() && tried < milestones.size(); ++i) {
+      index.within(at, SearchRadius(radius + i * step), no_vertex, near);
+      try_rest(false);
+    }
+  } else {
+    look();
+    try_rest(false);
+    if (edges.empty()) {
+      index.nearest(at, farthest, no_vertex, near);
+      tried = 0;
+      try_rest(true);
+    }
   }
   counters.edges_free += edges.size();
   counters.refused += refused_motions(query);
@@ -283,28 +243,26 @@ enum class Heading : std::uint8_t { out, in };
 /// nearest to it; nearest by the world's metric, in the edge's direction. The metric may be far above the distance of
 /// the embedding (a car gets sideways by a loop), so the k are chosen among the 4 k nearest of the embedding. Radius
 /// rule: what is within the radius by the metric. Nearest first; of two as near, the smaller vertex. Their distances:
-/// the edges' lengths. `except`: the state's own vertex, or no_vertex; `near` is scratch.
+/// the edges' lengths. `except`: the state's own vertex, or no_vertex.
 template <World W>
 std::vector<Neighbour> one_way_candidates(const W& world, std::span<const typename W::State> states,
                                           const StateIndex<W>& index, const ConnectionRule& rule,
-                                          const typename W::State& state, VertexId except, Heading heading,
-                                          std::vector<Neighbour>& near) {
+                                          const typename W::State& state, VertexId except, Heading heading) {
   constexpr std::size_t wider = 4;
   const auto at = embedded(world, state);
+  std::vector<Neighbour> near;
   if (rule.neighbours > 0) {
     index.nearest(at, wider * rule.neighbours, except, near);
   } else {
     index.within(at, SearchRadius(rule.radius), except, near);
   }
-  std::vector<Neighbour> found;
-  for (const Neighbour& n : near) {
-    const double length =
-        heading == Heading::in ? world.distance(states[n.id], state) : world.distance(state, states[n.id]);
-    if (rule.neighbours > 0 || length <= rule.radius) found.push_back({n.id, length});
+  for (Neighbour& n : near) {
+    n.distance = heading == Heading::in ? world.distance(states[n.id], state) : world.distance(state, states[n.id]);
   }
-  std::sort(found.begin(), found.end());
-  if (rule.neighbours > 0 && found.size() > rule.neighbours) found.resize(rule.neighbours);
-  return found;
+  if (rule.neighbours == 0) std::erase_if(near, [&](const Neighbour& n) { return !(n.distance <= rule.radius); });
+  std::sort(near.begin(), near.end());
+  if (rule.neighbours > 0 && near.size() > rule.neighbours) near.resize(rule.neighbours);
+  return near;
 }
 
 }  // namespace warren

@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/bitmap.hpp"
 #include "core/base/error.hpp"
 #include "core/base/raw_vector.hpp"
 #include "core/base/types.hpp"
@@ -68,118 +69,54 @@ inline std::size_t lattice_rows_a_chunk(LatticeSize size) {
   return points / size.cols + least;
 }
 
-/// Which points of the lattice are free: rows of whole words.
-class LatticeBits {
- public:
-  /// The free ones of the first `count` points, row by row.
-  template <World W>
-  LatticeBits(const W& world, LatticeSize size, std::uint64_t count, const Execution& execution)
-      : size_(size), words_a_row_((std::size_t{size.cols} + 63) / 64), words_(words_a_row_ * size.rows) {
-    const std::size_t grain = lattice_rows_a_chunk(size);
-    struct Part {
-      std::uint64_t count = 0;
-      Box box;
-    };
-    const std::vector<Part> parts = parts_of_chunks(size.rows, grain, execution, [&](Range r) {
-      fill_rows(world, r, count);
-      Part part;
-      for (std::size_t row = r.first; row < r.last; ++row) {
-        part.count += count_in_row(static_cast<std::uint32_t>(row), 0, size.cols);
-        part.box.include(box_of_row(row));
-      }
-      return part;
-    });
-    for (const Part& part : parts) {
-      count_ += part.count;
-      box_.include(part.box);
-    }
-  }
+/// The free ones of some points of the lattice.
+struct FreeLattice {
+  Bitmap points;  ///< a bit a point, row by row
+  Box box;        ///< of those that are set; empty if there are none
+};
 
-  LatticeSize size() const { return size_; }
-  std::uint64_t count() const { return count_; }
-  const Box& box() const { return box_; }  ///< of the free points; empty if there are none
-
-  /// Calls visit(col) for the free points of a row in the columns first .. last - 1, ascending.
-  template <class Visit>
-  void for_each_in_row(std::uint32_t row, std::uint32_t first, std::uint32_t last, const Visit& visit) const {
-    for (std::uint32_t w = first / 64; w * 64 < last; ++w) {
-      for (std::uint64_t rest = word(row, w) & columns_mask(w, first, last); rest != 0; rest &= rest - 1) {
-        visit(w * 64 + static_cast<std::uint32_t>(std::countr_zero(rest)));
-      }
-    }
-  }
-  std::uint64_t count_in_row(std::uint32_t row, std::uint32_t first, std::uint32_t last) const {
-    std::uint64_t sum = 0;
-    for (std::uint32_t w = first / 64; w * 64 < last; ++w) {
-      sum += static_cast<std::uint64_t>(std::popcount(word(row, w) & columns_mask(w, first, last)));
-    }
-    return sum;
-  }
-
- private:
-  /// Columns of a row that are among the first `count` points.
-  std::uint64_t cols_of(std::size_t row, std::uint64_t count) const {
-    const std::uint64_t first = row * size_.cols;
-    return std::min<std::uint64_t>(size_.cols, count - std::min(count, first));
-  }
-  /// Sets the bits of the free ones of the first `count` points in some rows.
-  template <World W>
-  void fill_rows(const W& world, Range rows, std::uint64_t count) {
-    const std::span<std::uint64_t> words(&words_[rows.first * words_a_row_], rows.size() * words_a_row_);
-    std::fill(words.begin(), words.end(), std::uint64_t{0});
+/// Of the first `count` points, row by row.
+template <World W>
+FreeLattice free_lattice(const W& world, LatticeSize size, std::uint64_t count, const Execution& execution) {
+  FreeLattice free{Bitmap(size.cols, size.rows, false, [&] { execution.check(); }), {}};
+  const std::vector<Box> boxes = parts_of_chunks(size.rows, lattice_rows_a_chunk(size), execution, [&](Range rows) {
     auto query = world.make_query();
     std::array<Vec2, bunch_size> bunch;
+    Box box;
     for (std::size_t row = rows.first; row < rows.last; ++row) {
-      const std::uint64_t cols = cols_of(row, count);
-      std::uint64_t* const its_words = &words_[row * words_a_row_];
+      const std::span<std::uint64_t> words = free.points.row(static_cast<std::uint32_t>(row));
+      const double y = static_cast<double>(row) + 1.0;
+      const std::uint64_t cols = std::min<std::uint64_t>(size.cols, count - std::min(count, row * size.cols));
+      std::uint64_t first = cols;  // of the free ones of the row
+      std::uint64_t last = 0;
       for (std::uint64_t col = 0; col < cols; col += bunch_size) {
         const auto held = static_cast<std::size_t>(std::min<std::uint64_t>(bunch_size, cols - col));
-        for (std::size_t i = 0; i < held; ++i) {
-          bunch[i] = {static_cast<double>(col + i + 1), static_cast<double>(row) + 1.0};
-        }
-        its_words[col / 64] |= std::uint64_t{world.free_states({bunch.data(), held}, query)} << (col % 64);
+        for (std::size_t i = 0; i < held; ++i) bunch[i] = {static_cast<double>(col + i + 1), y};
+        const std::uint64_t bits = world.free_states({bunch.data(), held}, query);
+        if (bits == 0) continue;
+        words[col / 64] |= bits << (col % 64);
+        first = std::min(first, col + static_cast<std::uint64_t>(std::countr_zero(bits)));
+        last = col + static_cast<std::uint64_t>(63 - std::countl_zero(bits));
       }
+      if (first < cols) box.include({{static_cast<double>(first) + 1.0, y}, {static_cast<double>(last) + 1.0, y}});
     }
-  }
-  /// The box of a row's free points; empty where there are none.
-  Box box_of_row(std::size_t row) const {
-    const std::span<const std::uint64_t> words(&words_[row * words_a_row_], words_a_row_);
-    const auto is_set = [](std::uint64_t word) { return word != 0; };
-    const auto first = std::find_if(words.begin(), words.end(), is_set);
-    if (first == words.end()) return {};
-    const auto last = std::find_if(words.rbegin(), words.rend(), is_set);
-    const auto low = (first - words.begin()) * 64 + std::countr_zero(*first);
-    const auto high = (words.rend() - last) * 64 - 1 - std::countl_zero(*last);
-    const double y = static_cast<double>(row) + 1.0;
-    return {{static_cast<double>(low) + 1.0, y}, {static_cast<double>(high) + 1.0, y}};
-  }
-  /// The bits of word w that stand for columns first .. last - 1.
-  static std::uint64_t columns_mask(std::uint32_t w, std::uint32_t first, std::uint32_t last) {
-    std::uint64_t mask = ~std::uint64_t{0};
-    if (first > w * 64) mask <<= first - w * 64;
-    if (last < w * 64 + 64) mask &= (std::uint64_t{1} << (last - w * 64)) - 1;
-    return mask;
-  }
-  std::uint64_t word(std::uint32_t row, std::uint32_t w) const { return words_[std::size_t{row} * words_a_row_ + w]; }
-
-  LatticeSize size_;
-  std::size_t words_a_row_;
-  RawVector<std::uint64_t> words_;
-  std::uint64_t count_ = 0;
-  Box box_;
-};
+    return box;
+  });
+  for (const Box& box : boxes) free.box.include(box);
+  return free;
+}
 
 /// The free points in tile order: strips of the frame's columns, in a strip rows of cells, in a row cells, in a cell
 /// the points row by row.
 class LatticeInTileOrder {
  public:
-  LatticeInTileOrder(const LatticeBits& free, const Execution& execution)
-      : free_(free), execution_(execution), frame_(free.box(), free.count()) {
-    for (std::uint32_t col = 0; col < free.size().cols; ++col) {
+  LatticeInTileOrder(const FreeLattice& free, const Execution& execution)
+      : free_(free.points), execution_(execution), frame_(free.box, free.points.count()) {
+    for (std::uint32_t col = 0; col < free_.width(); ++col) {
       const std::uint32_t strip = cell_column(col) / CellFrame::strip_width;
       while (strip_begin_.size() <= strip) strip_begin_.push_back(col);
     }
-    strip_begin_.push_back(free.size().cols);
+    strip_begin_.push_back(free_.width());
   }
 
   RawVector<Vec2> points(std::size_t spare) const {
@@ -201,9 +138,10 @@ class LatticeInTileOrder {
   std::vector<std::size_t> places() const {
     std::vector<std::size_t> first(strips() + 1, 0);
     for_chunks(strips(), 1, execution_, [&](Range r) {
-      std::uint64_t sum = 0;
-      for (std::uint32_t row = 0; row < free_.size().rows; ++row) {
-        sum += free_.count_in_row(row, strip_begin_[r.first], strip_begin_[r.first + 1]);
+      std::size_t sum = 0;
+      for (std::uint32_t row = 0; row < free_.height(); ++row) {
+        for_each_word(row, strip_begin_[r.first], strip_begin_[r.first + 1],
+                      [&](std::uint32_t, std::uint64_t word) { sum += static_cast<std::size_t>(std::popcount(word)); });
       }
       first[r.first + 1] = sum;
     });
@@ -211,7 +149,7 @@ class LatticeInTileOrder {
     return first;
   }
   Vec2* write_strip(std::uint32_t strip, Vec2* out) const {
-    const std::uint32_t rows = free_.size().rows;
+    const std::uint32_t rows = free_.height();
     for (std::uint32_t row = 0; row < rows;) {
       std::uint32_t last = row + 1;
       while (last < rows && cell_row(last) == cell_row(row)) ++last;
@@ -233,13 +171,28 @@ class LatticeInTileOrder {
     return out;
   }
   Vec2* write_row(std::uint32_t row, std::uint32_t first, std::uint32_t last, Vec2* out) const {
-    free_.for_each_in_row(row, first, last, [&](std::uint32_t col) {
-      *out++ = {static_cast<double>(col) + 1.0, static_cast<double>(row) + 1.0};
+    for_each_word(row, first, last, [&](std::uint32_t begin, std::uint64_t rest) {
+      for (; rest != 0; rest &= rest - 1) {
+        const std::uint32_t col = begin + static_cast<std::uint32_t>(std::countr_zero(rest));
+        *out++ = {static_cast<double>(col) + 1.0, static_cast<double>(row) + 1.0};
+      }
     });
     return out;
   }
+  /// Calls visit(begin, word) for the words of a row that have columns first .. last - 1: bit i is column begin + i,
+  /// and those of other columns are 0.
+  template <class Visit>
+  void for_each_word(std::uint32_t row, std::uint32_t first, std::uint32_t last, const Visit& visit) const {
+    const std::span<const std::uint64_t> words = free_.row(row);
+    for (std::uint32_t begin = first / 64 * 64; begin < last; begin += 64) {
+      std::uint64_t mask = ~std::uint64_t{0};
+      if (first > begin) mask <<= first - begin;
+      if (last < begin + 64) mask &= (std::uint64_t{1} << (last - begin)) - 1;
+      visit(begin, words[begin / 64] & mask);
+    }
+  }
 
-  const LatticeBits& free_;
+  const Bitmap& free_;
   const Execution& execution_;
   CellFrame frame_;
   std::vector<std::uint32_t> strip_begin_;  // first column of each strip, and the number of columns
@@ -262,7 +215,7 @@ RawVector<Vec2> lattice_milestones(const W& world, LatticeSize size, std::uint64
     throw InputError("lattice", "has more than 2^31 cells; use the tiled pipeline");
   }
   execution.reserve(std::size_t{size.rows} * (size.cols / 8 + 8));
-  const detail::LatticeBits free(world, size, count, execution);
+  const detail::FreeLattice free = detail::free_lattice(world, size, count, execution);
   return detail::LatticeInTileOrder(free, execution).points(spare);
 }
 
@@ -345,7 +298,7 @@ RawVector<typename W::State> in_tile_order(const W& world, const RawVector<typen
 
 /// The middles of a map's cells, in tile order.
 template <World W>
-RawVector<typename W::State> cell_centre_milestones(const W& world, const Execution& execution, std::size_t spare) {
+RawVector<typename W::State> cell_centre_milestones(const W& world, const Execution& execution) {
   constexpr std::size_t rows = 32;
   const Bitmap& cells = *world.milestone_cells();
   execution.reserve(cells.count() * sizeof(typename W::State));
@@ -356,7 +309,7 @@ RawVector<typename W::State> cell_centre_milestones(const W& world, const Execut
     }
     return part;
   });
-  const RawVector<typename W::State> states = joined_parts(parts, execution, spare);
+  const RawVector<typename W::State> states = joined_parts(parts, execution);
   parts.clear();
   return in_tile_order(world, states, execution);
 }
@@ -368,14 +321,13 @@ template <World W>
 RawVector<typename W::State> draw_milestones(const W& world, const RoadmapOptions& options, std::uint64_t count,
                                              const Execution& execution) {
   constexpr std::size_t grain = std::size_t{1} << 12;
-  constexpr std::size_t spare = 2;  // start and goal will follow
   if constexpr (std::same_as<typename W::State, Vec2>) {
     if (options.sampler == SamplerKind::lattice) {
-      return lattice_milestones(world, options.lattice, count, execution, spare);
+      return lattice_milestones(world, options.lattice, count, execution, 2);  // start and goal will follow
     }
   }
   if (options.sampler == SamplerKind::cell_centres && world.milestone_cells() != nullptr)
-    return detail::cell_centre_milestones(world, execution, spare);
+    return detail::cell_centre_milestones(world, execution);
   execution.reserve(count * sizeof(typename W::State));
   auto parts = parts_of_chunks(count, grain, execution, [&](Range r) {
     RawVector<typename W::State> part;
@@ -390,7 +342,7 @@ RawVector<typename W::State> draw_milestones(const W& world, const RoadmapOption
     }
     return part;
   });
-  RawVector<typename W::State> states = joined_parts(parts, execution, spare);
+  RawVector<typename W::State> states = joined_parts(parts, execution);
   parts.clear();
   return detail::in_tile_order(world, states, execution);
 }

@@ -9,7 +9,6 @@
 #pragma once
 
 #include <bit>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -60,7 +59,7 @@ class OneWayPlan final : public Rounds<W> {
     const ConnectionRule rule = this->rule_for(samples);
     const std::size_t begins = states_.size() - 1;  // nothing leads on from the goal
     candidates_ = Graph();
-    EdgeParts edges = one_way_edges(world_, states(), begins, index, rule, execution_);
+    EdgeParts edges = one_way_edges(world_, states_, begins, index, rule, execution_);
     edges.push_back(edges_to_goal(index, rule));
     solution_.counters.neighbour_queries += begins + 1;
     candidates_ = one_way_graph(states_.size(), edges, execution_);
@@ -68,10 +67,9 @@ class OneWayPlan final : public Rounds<W> {
   }
   /// And the edge from start to goal.
   RawVector<Edge> edges_to_goal(const StateIndex<W>& index, const ConnectionRule& rule) {
-    std::vector<Neighbour> near;
     RawVector<Edge> edges;
     for (const Neighbour& c :
-         one_way_candidates<W>(world_, states(), index, rule, this->goal_, no_vertex, Heading::in, near)) {
+         one_way_candidates<W>(world_, states_, index, rule, this->goal_, no_vertex, Heading::in)) {
       push_asked(edges, {c.id, goal_vertex()}, execution_);
     }
     if (world_.distance(this->start_, this->goal_) <= direct_reach(rule)) {
@@ -79,7 +77,6 @@ class OneWayPlan final : public Rounds<W> {
     }
     return edges;
   }
-  std::span<const State> states() const { return {states_.data(), states_.size()}; }
   bool is_free(VertexId from, VertexId to, std::size_t end, typename W::Query& query, Counters& counters) {
     EdgeState known = edge_state(known_, end);
     if (known == EdgeState::unchecked) {
@@ -91,7 +88,7 @@ class OneWayPlan final : public Rounds<W> {
   }
   void check_all() {
     const StageTimer timer(execution_, "checks", solution_.seconds.connect, states_.size());
-    known_ = check_edges(world_, states(), candidates_, execution_, solution_.counters, {}, known_);
+    known_ = check_edges(world_, states_, candidates_, execution_, solution_.counters, {}, known_);
   }
   bool search() {
     const bool blind = !has_queue(options_.search);

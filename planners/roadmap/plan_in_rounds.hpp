@@ -121,8 +121,7 @@ class Rounds {
     return options_.tells_separation && solution_.outcome == Outcome::not_connected && !states_.empty();
   }
   void tell_separation(const Components& components) {
-    solution_.separation =
-        separation_of(world_, std::span<const State>(states_), components, start_vertex(), goal_vertex(), execution_);
+    solution_.separation = separation_of(world_, states_, components, start_vertex(), goal_vertex(), execution_);
   }
   /// Between what start has reached and what has reached the goal.
   void tell_separation(const SearchState& from_start, const SearchState& from_goal) {

@@ -7,7 +7,10 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <optional>
 
+#include "core/base/error.hpp"
+#include "core/base/trigonometry.hpp"
 #include "core/run/execution.hpp"
 #include "planners/graph/any_world.hpp"
 #include "planners/graph/roadmap_options.hpp"
@@ -77,9 +80,41 @@ inline ConnectionRule connection_rule(const RoadmapOptions& options, std::uint64
   return {std::max(std::sqrt(area / std::numbers::pi), strip), 0};
 }
 
+namespace detail {
+
+/// The volume of the ball of radius 1.
+inline double unit_ball(std::size_t dimension) {
+  if (dimension < 2) return dimension == 0 ? 1.0 : 2.0;
+  return 2.0 * std::numbers::pi / static_cast<double>(dimension) * unit_ball(dimension - 2);
+}
+
+/// The n-th root of x > 0, n >= 1: Newton's steps from above go down until rounding stops them. Not std::pow, whose
+/// last bit is the library's affair.
+inline double root(double x, std::size_t n) {
+  const auto degree = static_cast<double>(n);
+  for (double y = std::max(1.0, x);;) {
+    double rest = x;
+    for (std::size_t i = 1; i < n; ++i) rest /= y;
+    const double next = y + (rest - y) / degree;
+    if (!(next < y)) return y;
+    y = next;
+  }
+}
+
+}  // namespace detail
+
 /// k = e (1 + 1/d) ln n, or radius = 2 ((1 + 1/d) V / B ln n / n)^(1/d), with B the volume of the unit ball and V that
 /// of the sampled space, which is not less than the free one's. UsageError where the world doesn't tell V.
-ConnectionRule star_rule(StarRule rule, std::uint64_t samples, std::size_t dimension, double volume);
+inline ConnectionRule star_rule(StarRule rule, std::uint64_t samples, std::size_t dimension, double volume) {
+  const double n = std::max(static_cast<double>(samples), 2.0);
+  const auto d = static_cast<double>(dimension);
+  if (rule == StarRule::neighbours) {
+    return {0.0, static_cast<std::uint32_t>(std::ceil(std::numbers::e * (1.0 + 1.0 / d) * portable::log(n)))};
+  }
+  if (!(volume > 0.0)) throw UsageError("@radius: star: this world doesn't tell its volume; say @neighbours star");
+  return {2.0 * detail::root((1.0 + 1.0 / d) * volume / detail::unit_ball(dimension) * portable::log(n) / n, dimension),
+          0};
+}
 
 template <World W>
 ConnectionRule connection_rule_for(const W& world, const RoadmapOptions& options, std::uint64_t samples) {

@@ -93,42 +93,30 @@ inline double mirrored(double x) {
   return x < 1.0 ? x : std::nextafter(1.0, 0.0);
 }
 
-/// A pair of points of the unit cube, `spread` apart in each coordinate on average. The second costs ten times as much
-/// as the first, so it is made when it is asked for.
+/// Of a pair of points of the unit cube, `spread` apart in each coordinate on average. The second costs ten times as
+/// much as the first, so it is made when it is asked for. Axes below 16 are the uniform sample's.
 template <std::size_t D>
-class UnitPair {
- public:
-  UnitPair(std::uint64_t seed, std::uint64_t index, std::uint64_t attempt, double spread)
-      : seed_(seed),
-        index_(index),
-        base_(16 + attempt * 4 * D),
-        spread_(spread) {  // axes below 16: the uniform sample's
-    for (std::size_t axis = 0; axis < D; ++axis) first_[axis] = uniform(seed, index, base_ + axis);
+std::array<double, D> first_of_pair(std::uint64_t seed, std::uint64_t index, std::uint64_t attempt) {
+  std::array<double, D> point;
+  for (std::size_t axis = 0; axis < D; ++axis) point[axis] = uniform(seed, index, 16 + attempt * 4 * D + axis);
+  return point;
+}
+template <std::size_t D>
+std::array<double, D> second_of_pair(std::array<double, D> point, std::uint64_t seed, std::uint64_t index,
+                                     std::uint64_t attempt, double spread) {
+  for (std::size_t axis = 0; axis < D; ++axis) {
+    point[axis] = mirrored(point[axis] + spread * normal(seed, index, 8 + attempt * 2 * D + D + axis));
   }
-  const std::array<double, D>& first() const { return first_; }
-  std::array<double, D> second() const {
-    std::array<double, D> point;
-    for (std::size_t axis = 0; axis < D; ++axis) {
-      point[axis] = mirrored(first_[axis] + spread_ * normal(seed_, index_, base_ / 2 + D + axis));
-    }
-    return point;
-  }
-
- private:
-  std::uint64_t seed_;
-  std::uint64_t index_;
-  std::uint64_t base_;
-  double spread_;
-  std::array<double, D> first_;
-};
+  return point;
+}
 
 template <World W>
 std::optional<typename W::State> gaussian_state(const W& world, std::uint64_t seed, std::uint64_t index,
                                                 typename W::Query& query) {
   for (std::uint64_t attempt = 0; attempt < sample_tries; ++attempt) {
-    const UnitPair<W::dimension> pair(seed, index, attempt, gaussian_spread);
-    const auto a = world.at_unit(pair.first());
-    const auto b = world.at_unit(pair.second());
+    const auto first = first_of_pair<W::dimension>(seed, index, attempt);
+    const auto a = world.at_unit(first);
+    const auto b = world.at_unit(second_of_pair(first, seed, index, attempt, gaussian_spread));
     const bool a_is_free = world.is_free(a, query);
     if (a_is_free != world.is_free(b, query)) return a_is_free ? a : b;
   }
@@ -139,12 +127,12 @@ template <World W>
 std::optional<typename W::State> bridge_state(const W& world, std::uint64_t seed, std::uint64_t index,
                                               typename W::Query& query) {
   for (std::uint64_t attempt = 0; attempt < sample_tries; ++attempt) {
-    const UnitPair<W::dimension> pair(seed, index, attempt, bridge_spread);
-    if (world.is_free(world.at_unit(pair.first()), query)) continue;
-    const std::array<double, W::dimension> second = pair.second();
+    const auto first = first_of_pair<W::dimension>(seed, index, attempt);
+    if (world.is_free(world.at_unit(first), query)) continue;
+    const auto second = second_of_pair(first, seed, index, attempt, bridge_spread);
     if (world.is_free(world.at_unit(second), query)) continue;
     std::array<double, W::dimension> middle;
-    for (std::size_t axis = 0; axis < W::dimension; ++axis) middle[axis] = 0.5 * (pair.first()[axis] + second[axis]);
+    for (std::size_t axis = 0; axis < W::dimension; ++axis) middle[axis] = 0.5 * (first[axis] + second[axis]);
     const auto state = world.at_unit(middle);
     if (world.is_free(state, query)) return state;
   }

@@ -66,9 +66,8 @@ class Redriving {
  private:
   static constexpr std::size_t stretch_states = 32;
   static constexpr std::size_t drawn_states = 64;
-  static constexpr std::size_t backwards =
-      20;                                 // places that lie so far before one in the stretch's order are tried, too
-  static constexpr double unsure = 1e-6;  // of prices, as rounding has it; a leg costs that to twice that more
+  static constexpr std::size_t backwards = 20;  // places that lie so far before one in the order are tried, too
+  static constexpr double unsure = 1e-6;        // of prices, as rounding has it; a leg costs that to twice that more
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
   struct Place {

@@ -7,6 +7,8 @@
 #include <numbers>
 
 #include "core/base/trigonometry.hpp"
+#include "core/plane/polygon.hpp"
+#include "core/plane/se2.hpp"
 #include "parallel/chunks.hpp"
 
 namespace warren {
@@ -194,8 +196,7 @@ class TautString {
 
   /// Wall ends inside the bend, into ends_. A large triangle is halved, since its box may be much larger than itself.
   void gather(const Vec2 (&triangle)[3], const Fall& fall, int depth) {
-    Box box;
-    for (const Vec2 p : triangle) box.include(p);
+    const Box box = box_around(triangle);
     constexpr int deepest = 24;
     if (depth < deepest && std::min(box.width(), box.height()) > search_size_) {
       int from = 0;  // the longest side begins here
@@ -401,9 +402,7 @@ class Pulling {
     for (double i = 0.0; i < count; i += 1.0) {
       const double angle = stop.turn * (2.0 * i + 1.0) * half;
       const double stretch = 1.0 / portable::cos(half);
-      const auto [sine, cosine] = portable::sin_and_cos(angle);
-      const Vec2 to{cosine * spoke.x - sine * spoke.y, sine * spoke.x + cosine * spoke.y};
-      points.push_back(inside_box(stop.center + stretch * to));
+      points.push_back(inside_box(stop.center + stretch * Rotation(angle)(spoke)));
     }
   }
 

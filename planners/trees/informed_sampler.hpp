@@ -32,7 +32,6 @@ class InformedSampler {
   InformedSampler(const W& world, const State& start, std::span<const State> goals, std::uint64_t seed)
       : world_(&world), start_(start), goals_(goals.begin(), goals.end()), seed_(random_bits(seed, 0, purpose)) {}
 
-  const State& start() const { return start_; }
   const std::vector<State>& goals() const { return goals_; }
   /// From the state to the nearest goal, at least: by the metric.
   double rest(const State& state) const {
@@ -72,13 +71,7 @@ class InformedSampler {
   static constexpr std::uint64_t own_axes = 8;  // from here on, and below 16: no axes of the world
   static constexpr bool in_plane = std::same_as<State, Vec2> || std::same_as<State, Se2>;
 
-  static Vec2 place_of(const State& state) {
-    if constexpr (std::same_as<State, Se2>) {
-      return state.position();
-    } else {
-      return state;
-    }
-  }
+  static Vec2 place_of(const State& state) { return {state.x, state.y}; }
   /// A state of the ellipse around the start's place and the goal's; nothing where it is no smaller than the box.
   std::optional<State> in_ellipse(std::uint64_t draw, const State& goal, double most) const {
     const Vec2 from = place_of(start_);

@@ -45,7 +45,8 @@ class RrtSearch {
     counters_.refused = refused_motions(query_);
   }
   bool arrived() const { return last_ != no_vertex; }
-  bool gave_up() const { return tree_.size() >= options_->nodes || counters_.samples >= most_steps(); }
+  /// After so many samples, too: a tree that is shut in on all sides never gets its nodes.
+  bool gave_up() const { return tree_.size() >= options_->nodes || counters_.samples >= 64 * options_->nodes; }
   const Counters& counters() const { return counters_; }
   void finish(Solution<State>& solution, PlannedRoadmap<State>* keep, const Execution& execution) const {
     solution.roadmap = {tree_.size(), tree_.size() - 1, 1};
@@ -62,8 +63,6 @@ class RrtSearch {
   }
 
  private:
-  /// A tree that is shut in on all sides never gets its nodes.
-  std::uint64_t most_steps() const { return 64 * options_->nodes; }
   State next_target() {
     constexpr std::uint64_t bias_axis = 8;  // below 16: no axis of the samplers
     const std::uint64_t index = counters_.samples++;

@@ -62,7 +62,6 @@ class RrtConnectSearch {
         begun_(index != 0) {
     trees_[0].add_root(start);
     for (const State& goal : goals) trees_[1].add_root(goal);
-    goal_count_ = static_cast<VertexId>(goals.size());
   }
 
   /// Before anything has grown: only paths that cost less are of use. A state is added only where its cost in its tree
@@ -72,7 +71,7 @@ class RrtConnectSearch {
     begun_ = true;
     if (most == unbounded) return;
     std::vector<State> goals;
-    for (VertexId goal = 0; goal < goal_count_; ++goal) goals.push_back(trees_[1].state(goal));
+    for (VertexId goal = 0; goal < trees_[1].size(); ++goal) goals.push_back(trees_[1].state(goal));
     informed_.emplace(*world_, trees_[0].state(0), std::span<const State>(goals), seed_);
     most_ = most;
   }
@@ -86,7 +85,8 @@ class RrtConnectSearch {
   /// That of the trees, and 1 for each sample that came to nothing; without what samplers look at.
   std::uint64_t work() const { return trees_[0].work() + trees_[1].work() + idle_samples_; }
   bool arrived() const { return arrived_; }
-  bool gave_up() const { return node_count() >= options_->nodes || counters_.samples >= most_steps(); }
+  /// After so many samples, too: trees that are shut in on all sides never get their nodes.
+  bool gave_up() const { return node_count() >= options_->nodes || counters_.samples >= 64 * options_->nodes; }
   const Counters& counters() const { return counters_; }
   /// In the world's metric; only where arrived().
   double cost() const { return trees_[0].cost(meeting_[0]) + trees_[1].cost(meeting_[1]); }
@@ -121,8 +121,6 @@ class RrtConnectSearch {
     }
     counters_.refused = refused_motions(query_);
   }
-  /// Trees that are shut in on all sides never get their nodes.
-  std::uint64_t most_steps() const { return 64 * options_->nodes; }
   std::size_t node_count() const { return trees_[0].size() + trees_[1].size(); }
   std::optional<State> next_target() {
     const std::uint64_t index = counters_.samples++;
@@ -174,12 +172,9 @@ class RrtConnectSearch {
     const State next = mine.towards(grown, target, step_);
     return is_worth(side, grown, next) ? mine.join(grown, next, query_, counters_).value_or(grown) : grown;
   }
-  /// The least that is left from a state of a tree to the other end.
+  /// The least that is left from a state of a tree to the other end, where there is a bound.
   double least_rest(std::size_t side, const State& state) const {
-    if (side == 1) return trees_[0].length(0, state);
-    double least = unbounded;
-    for (VertexId goal = 0; goal < goal_count_; ++goal) least = std::min(least, trees_[1].length(goal, state));
-    return least;
+    return side == 1 ? trees_[0].length(0, state) : informed_->rest(state);
   }
   bool is_worth(std::size_t side, VertexId from, const State& next) const {
     return most_ == unbounded ||
@@ -269,7 +264,6 @@ class RrtConnectSearch {
   std::uint64_t seed_;
   typename W::Query query_;
   std::array<MotionTree<W>, 2> trees_;       // from the start, from the goals
-  VertexId goal_count_ = 0;                  // so many roots has the second
   std::array<VertexId, 2> meeting_{};        // where they meet, in each tree
   std::size_t turn_ = 0;                     // whose turn it is
   std::array<std::vector<bool>, 2> failed_;  // from which vertices a motion has; beyond the end none

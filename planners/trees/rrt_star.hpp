@@ -26,12 +26,11 @@
 namespace warren {
 
 struct RrtStarOptions {
-  std::uint64_t seed = 1;                      ///< any value
-  double step = 0.0;                           ///< longest motion towards a sample, in the world's metric; > 0
-  std::uint64_t nodes = 100'000;               ///< a tree of so many states grows no more; 2 .. 2^31
-  bool informed = true;                        ///< else the textbook's: goal bias, and samples from everywhere
-  double goal_bias = 0.05;                     ///< share of the samples that are a goal, while no path is known
-  SamplerKind sampler = SamplerKind::uniform;  ///< of the others
+  std::uint64_t seed = 1;         ///< any value
+  double step = 0.0;              ///< longest motion towards a sample, in the world's metric; > 0
+  std::uint64_t nodes = 100'000;  ///< a tree of so many states grows no more; 2 .. 2^31
+  bool informed = true;           ///< else the textbook's: goal bias, and samples from everywhere
+  double goal_bias = 0.05;        ///< share of samples that are a goal, while no path is known; others are uniform
 };
 
 /// A forward tree whose states may get other parents. For one thread.
@@ -99,10 +98,9 @@ template <SteerableWorld W>
 class RrtStarTree {
  public:
   using State = typename W::State;
-  using Options = RrtStarOptions;
 
   /// start, goals (at least one): free.
-  RrtStarTree(const W& world, const State& start, std::span<const State> goals, const Options& options)
+  RrtStarTree(const W& world, const State& start, std::span<const State> goals, const RrtStarOptions& options)
       : options_(options),
         query_(world.make_query()),
         world_(&world),
@@ -217,7 +215,7 @@ class RrtStarTree {
       const auto& goals = sampler_.goals();
       return goals[random_bits(options_.seed, index, choice_axis + 1) % goals.size()];
     }
-    return target_state(*world_, options_.sampler, options_.seed, index, query_);
+    return target_state(*world_, SamplerKind::uniform, options_.seed, index, query_);
   }
   /// A step from the nearest state towards the target, and what is near there; nothing where the tree has it.
   std::optional<State> next_state(const State& target) {
@@ -306,7 +304,7 @@ class RrtStarTree {
     }
   }
 
-  Options options_;
+  RrtStarOptions options_;
   typename W::Query query_;
   const W* world_;
   InformedSampler<W> sampler_;

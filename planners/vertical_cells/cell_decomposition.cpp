@@ -9,7 +9,6 @@
 
 #include "core/plane/geometry.hpp"
 #include "parallel/sort.hpp"
-#include "planners/graph/assemble_graph.hpp"
 #include "planners/visibility/noding.hpp"
 
 namespace warren {
@@ -182,8 +181,7 @@ class CellSweep {
   /// Is the obstacle to be reckoned with? Throws ObstacleClash where it lies inside and outside the box.
   bool stands_inside(std::span<const Vec2> corners, std::size_t obstacle) const {
     const Box& box = result_.box;
-    Box own;
-    for (const Vec2 p : corners) own.include(p);
+    const Box own = box_around(corners);
     if (box.contains(own.min) && box.contains(own.max)) return true;
     const bool apart =
         own.max.x <= box.min.x || own.min.x >= box.max.x || own.max.y <= box.min.y || own.min.y >= box.max.y;
@@ -423,17 +421,6 @@ ObstacleClash::ObstacleClash(std::size_t obstacle, std::size_t other, std::size_
       obstacle_(obstacle),
       other_(other) {}
 
-Graph CellDecomposition::graph(std::size_t further_vertices, std::span<const Edge> further_edges,
-                               const Execution& execution) const {
-  std::vector<Edge> edges;
-  edges.reserve(doors.size() + further_edges.size());
-  for (const Door& door : doors) {
-    if (!door.shut) edges.push_back({door.left, door.right});
-  }
-  edges.insert(edges.end(), further_edges.begin(), further_edges.end());
-  return assemble_graph(cells.size() + further_vertices, edges, execution);
-}
-
 int CellDecomposition::side(std::uint32_t segment, Vec2 p) const noexcept {
   if (segment == floor_segment) return p.y > box.min.y ? 1 : p.y < box.min.y ? -1 : 0;
   if (segment == ceiling_segment) return p.y > box.max.y ? 1 : p.y < box.max.y ? -1 : 0;
@@ -454,16 +441,6 @@ Segment CellDecomposition::door_line(std::uint32_t door) const {
   const Vec2 corner = corners[doors[door].corner];
   const Vec2 far{corner.x, height(far_segment(door), corner.x)};
   return doors[door].above ? Segment{corner, far} : Segment{far, corner};
-}
-
-std::array<Vec2, 4> CellDecomposition::outline(std::uint32_t cell) const {
-  const VerticalCell& c = cells[cell];
-  const double left = c.left == no_number ? box.min.x : corners[c.left].x;
-  const double right = c.right == no_number ? box.max.x : corners[c.right].x;
-  return {{{left, height(c.lower, left)},
-           {right, height(c.lower, right)},
-           {right, height(c.upper, right)},
-           {left, height(c.upper, left)}}};
 }
 
 CellDecomposition decompose(const PlaneObstacles& obstacles, std::span<const Vec2> points, const Execution& execution) {

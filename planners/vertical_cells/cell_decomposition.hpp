@@ -27,7 +27,6 @@
 #include "core/base/types.hpp"
 #include "core/plane/polygon.hpp"
 #include "core/run/execution.hpp"
-#include "core/search/graph.hpp"
 
 namespace warren {
 
@@ -86,8 +85,6 @@ struct CellDecomposition {
   std::vector<Door> doors;
   std::vector<CellPlace> places;  ///< of the points that were asked about
 
-  /// The cells, and behind them further vertices; an edge for each door that is not shut, and the given edges.
-  Graph graph(std::size_t further_vertices, std::span<const Edge> further_edges, const Execution& execution) const;
   /// The cell on the other side.
   std::uint32_t beyond(std::uint32_t door, std::uint32_t cell) const {
     return doors[door].left == cell ? doors[door].right : doors[door].left;
@@ -109,8 +106,6 @@ struct CellDecomposition {
   double height(std::uint32_t segment, double x) const noexcept;
   /// The door's ends for drawing, lower first; rounded.
   Segment door_line(std::uint32_t door) const;
-  /// Corners of the trapezoid for drawing, anticlockwise from the lower left; rounded.
-  std::array<Vec2, 4> outline(std::uint32_t cell) const;
 };
 
 /// Decomposes the free part of the bounds; without bounds, of the obstacles' box; without obstacles, of the points'

@@ -11,6 +11,7 @@
 #include "core/search/search.hpp"
 #include "parallel/asked_memory.hpp"
 #include "parallel/chunks.hpp"
+#include "planners/graph/assemble_graph.hpp"
 #include "planners/graph/components.hpp"
 #include "planners/graph/no_path.hpp"
 #include "planners/graph/queue_choice.hpp"
@@ -186,12 +187,13 @@ class CellPlanning {
   void connect_cells() {
     const StageTimer timer(execution_, "connect", solution_.seconds.connect, cells_->doors.size());
     std::vector<Edge> edges;
+    edges.reserve(cells_->doors.size() + start_place().cells.size() + goal_place().cells.size());
+    for (const Door& door : cells_->doors) {
+      if (!door.shut) edges.push_back({door.left, door.right});
+    }
     for (const VertexId cell : start_place().cells) edges.push_back({start_vertex(), cell});
     for (const VertexId cell : goal_place().cells) edges.push_back({goal_vertex(), cell});
-    graph_ = cells_->graph(2, edges, execution_);
-  }
-  void compute_points() {
-    if (points_ == nullptr) points_ = &own_points_.emplace(*cells_, execution_);
+    graph_ = assemble_graph(cells_->cells.size() + 2, edges, execution_);
   }
   bool ends_are_joined() {
     const StageTimer timer(execution_, "components", solution_.seconds.connect);
@@ -205,26 +207,20 @@ class CellPlanning {
   void find_route() {
     const StageTimer timer(execution_, "search", solution_.seconds.search);
     const bool over_cells = !has_queue(options_.search);
+    const bool by_middles = options_.doors == DoorKind::midpoint;
     plan_.route = {start_, goal_, {}, {}};
-    const bool taut = !over_cells && options_.doors == DoorKind::funnel;
-    if (options_.doors == DoorKind::midpoint) compute_points();
-    if (over_cells) {
-      follow_cells(search_cells());
-    } else if (taut) {
-      follow_taut_route();
-    } else {
-      follow_doors(search_doors());
-    }
-  }
-  RawVector<VertexId> search_cells() {
+    if (!over_cells && !by_middles && follow_taut_route()) return;
+    if ((!over_cells || by_middles) && points_ == nullptr) points_ = &own_points_.emplace(*cells_, execution_);
     SearchState state;
-    SearchResult found = search_blindly(options_.search, graph_, start_vertex(), goal_vertex(), state, execution_);
+    const SearchResult found =
+        over_cells ? search_blindly(options_.search, graph_, start_vertex(), goal_vertex(), state, execution_)
+                   : search_doors(state);
     solution_.counters.expanded = found.expanded;
     if (found.status == SearchStatus::stopped) execution_.check();
-    return std::move(found.path);
+    over_cells ? follow_cells(found.path) : follow_doors(found.path);
   }
   /// Best first over the doors, start and goal behind them.
-  RawVector<VertexId> search_doors() {
+  SearchResult search_doors(SearchState& state) const {
     const auto count = static_cast<VertexId>(cells_->doors.size());
     const VertexId start = count;
     const VertexId goal = count + 1;
@@ -250,12 +246,7 @@ class CellPlanning {
       if (!informed || v == goal) return 0.0;
       return distance(v == start ? start_ : points_->middle(v), goal_);
     };
-    SearchState state;
-    SearchResult found =
-        search_best_first(options_.queue, count + 2, start, goal, neighbours, estimate, state, execution_);
-    solution_.counters.expanded = found.expanded;
-    if (found.status == SearchStatus::stopped) execution_.check();
-    return std::move(found.path);
+    return search_best_first(options_.queue, count + 2, start, goal, neighbours, estimate, state, execution_);
   }
   /// cells: start's vertex, cells, goal's vertex.
   void follow_cells(std::span<const VertexId> cells) {
@@ -266,18 +257,15 @@ class CellPlanning {
     }
     middles_ = route.doors;
   }
-  /// Where nothing is left although the cells are connected, rounding has cut the last way off: then a way through the
-  /// doors' middles does.
-  void follow_taut_route() {
+  /// False where nothing is left although the cells are connected, since rounding has cut the last way off: then a way
+  /// through the doors' middles does.
+  bool follow_taut_route() {
     const bool informed = options_.search == SearchKind::astar;
     TautRoute found = shortest_taut_route(*cells_, plan_.cells.places, start_, goal_, informed, execution_);
     solution_.counters.expanded = found.expanded;
-    if (found.cells.empty()) {
-      compute_points();
-      return follow_doors(search_doors());
-    }
     plan_.route.cells = std::move(found.cells);
     plan_.route.doors = std::move(found.doors);
+    return !plan_.route.cells.empty();
   }
   /// doors: start's vertex, doors, goal's vertex. A door that is reached but not passed (all legs lie in one cell) is
   /// left out, at the ends too.
@@ -341,15 +329,6 @@ class CellPlanning {
   Solution<Vec2> solution_;
 };
 
-template <class Ground>
-Solution<Vec2> plan_on(const Ground& ground, Vec2 start, Vec2 goal, const CellOptions& options,
-                       const Execution& execution, CellPlan* keep) {
-  CellPlanning planning(start, goal, options, execution);
-  Solution<Vec2> solution = run_plan(planning, ground);
-  if (keep != nullptr) *keep = std::move(planning.plan());
-  return solution;
-}
-
 }  // namespace
 
 DoorPoints::DoorPoints(const CellDecomposition& cells, const Execution& execution) : cells_(cells) {
@@ -404,12 +383,16 @@ CellRoadmap::CellRoadmap(PlaneObstacles plane, const Execution& execution)
 
 Solution<Vec2> plan_through_cells(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal, const CellOptions& options,
                                   const Execution& execution, CellPlan* keep) {
-  return plan_on(obstacles, start, goal, options, execution, keep);
+  CellPlanning planning(start, goal, options, execution);
+  Solution<Vec2> solution = run_plan(planning, obstacles);
+  if (keep != nullptr) *keep = std::move(planning.plan());
+  return solution;
 }
 
 Solution<Vec2> plan_through_cells(const CellRoadmap& roadmap, Vec2 start, Vec2 goal, const CellOptions& options,
                                   const Execution& execution) {
-  return plan_on(roadmap, start, goal, options, execution, nullptr);
+  CellPlanning planning(start, goal, options, execution);
+  return run_plan(planning, roadmap);
 }
 
 }  // namespace warren

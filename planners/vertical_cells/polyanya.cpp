@@ -138,8 +138,7 @@ class TautSearch {
   /// Straight on through the door, or bending at what the node has just passed.
   void pass(const Node& node, std::uint32_t number, std::uint32_t door) {
     const auto enter = [&](Node child) {
-      child.left.fresh = false;
-      child.right.fresh = false;
+      child.left.fresh = child.right.fresh = false;
       if (!narrow(child, door) || is_known_ray(child, door)) return;
       child.cell = cells_.beyond(door, node.cell);
       child.door = door;
@@ -168,12 +167,11 @@ class TautSearch {
   bool is_known_ray(const Node& node, std::uint32_t door) {
     const Bound& l = node.left;
     const Bound& r = node.right;
-    const auto is_ahead = [](Vec2 from, Vec2 to) { return from.x < to.x || (from.x == to.x && from.y < to.y); };
     const auto on_line = [](Vec2 from, Vec2 to, const Bound& b) {
       return orient2d(from, to, b.from) == 0 && orient2d(from, to, b.to) == 0;
     };
     if (!l.any() || !r.any() || !on_line(l.from, l.to, r)) return false;
-    const bool same_way = is_ahead(l.from, l.to) == is_ahead(r.from, r.to);
+    const bool same_way = is_before(l.from, l.to) == is_before(r.from, r.to);
     if (same_way && (l.kind == Bound::Kind::line || r.kind == Bound::Kind::line)) return true;  // no bend: seen before
     for (const LastRay& known : last_rays_[door]) {
       if (known.root_door == node.root_door && on_line(known.from, known.to, l)) return true;
@@ -215,8 +213,7 @@ class TautSearch {
       if (!is_new_bend(node, on_left, door)) return;
       child = bent(node, on_left);
     }
-    child.left.fresh = false;
-    child.right.fresh = false;
+    child.left.fresh = child.right.fresh = false;
     child.rightwards = !node.rightwards;
     child.cell = cells_.beyond(door, node.cell);
     child.door = door;

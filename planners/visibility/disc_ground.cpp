@@ -65,28 +65,7 @@ DiscGround::DiscGround(const PlaneObstacles& obstacles, const Execution& executi
   grid = SegmentGrid(segments, execution);
 }
 
-DiscRoadmap::DiscRoadmap(const PlaneObstacles& obstacles, const Execution& execution)
-    : ground(obstacles, execution), graph(ground.corners, VisibilityEdges::discs, execution) {}
-
-DiscRoadmap::DiscRoadmap(const PlaneObstacles& obstacles, Graph known, const Execution& execution)
-    : ground(obstacles, execution), graph(ground.corners, std::move(known), VisibilityEdges::discs) {}
-
-SegmentGrid::Cell NearSegments::cell(Vec2 p) const {
-  const Box box = ground_.grid.box();
-  return ground_.grid.cell_of({std::clamp(p.x, box.min.x, box.max.x), std::clamp(p.y, box.min.y, box.max.y)});
-}
-
-NearSegments::Span NearSegments::span_in(const Segment& s, double y_low, double y_high) {
-  const Vec2 low = s.a.y <= s.b.y ? s.a : s.b;
-  const Vec2 high = s.a.y <= s.b.y ? s.b : s.a;
-  const double rise = high.y - low.y;
-  const auto x_at = [&](double y) {
-    const double share = rise > 0.0 ? std::clamp((y - low.y) / rise, 0.0, 1.0) : y > low.y ? 1.0 : 0.0;
-    return low.x + share * (high.x - low.x);
-  };
-  const double x0 = x_at(y_low);
-  const double x1 = x_at(y_high);
-  return {std::min(x0, x1), std::max(x0, x1)};
-}
+DiscRoadmap::DiscRoadmap(const PlaneObstacles& obstacles, const Execution& execution, std::optional<Graph> known)
+    : ground(obstacles, execution), graph(ground.corners, VisibilityEdges::discs, execution, std::move(known)) {}
 
 }  // namespace warren

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <queue>
 #include <utility>
 
 #include "core/base/trigonometry.hpp"
 #include "core/plane/geometry.hpp"
 #include "core/plane/se2.hpp"
-#include "planners/visibility/visibility_path.hpp"
 
 namespace warren {
 namespace {
@@ -52,6 +52,61 @@ struct DiscRoom {
   double radius;  ///< of circles
   double least;   ///< what is nearer than this to the centre blocks: less than `radius` by more than rounding
   bool loose;     ///< in doubt free
+};
+
+/// Which segments come near a leg; scratch of one thread. The ground must outlive it.
+class NearSegments {
+ public:
+  explicit NearSegments(const DiscGround& ground) : ground_(ground), epoch_(ground.segments.size(), 0) {}
+
+  /// Calls visit(number) once for all segments of the ground that come nearer to s than `within`, and some more, until
+  /// it returns false; whether it never did. `within` allows for the rounding of the caller's coordinates.
+  template <class Visit>
+  bool for_each(const Segment& s, double within, const Visit& visit) {
+    const SegmentGrid& grid = ground_.grid;
+    const Box box = box_of(s).grown(within);
+    if (ground_.segments.empty() || !box.meets(grid.box())) return true;
+    if (++now_ == 0) {
+      std::fill(epoch_.begin(), epoch_.end(), 0U);
+      now_ = 1;
+    }
+    const std::uint32_t last = cell(box.max).row;
+    for (std::uint32_t row = cell(box.min).row; row <= last; ++row) {
+      const auto [low, high] = span_in(s, grid.y_line(row) - within, grid.y_line(row + 1) + within);
+      const std::uint32_t end = cell({high + within, s.a.y}).col;
+      for (std::uint32_t col = cell({low - within, s.a.y}).col; col <= end; ++col) {
+        for (const std::uint32_t number : grid.in_cell({col, row})) {
+          if (epoch_[number] == now_) continue;
+          epoch_[number] = now_;
+          if (!visit(number)) return false;
+        }
+      }
+    }
+    return true;
+  }
+
+ private:
+  SegmentGrid::Cell cell(Vec2 p) const {
+    const Box box = ground_.grid.box();
+    return ground_.grid.cell_of({std::clamp(p.x, box.min.x, box.max.x), std::clamp(p.y, box.min.y, box.max.y)});
+  }
+  /// The least and the largest x that s takes where its y is between these.
+  static std::pair<double, double> span_in(const Segment& s, double y_low, double y_high) {
+    const Vec2 low = s.a.y <= s.b.y ? s.a : s.b;
+    const Vec2 high = s.a.y <= s.b.y ? s.b : s.a;
+    const double rise = high.y - low.y;
+    const auto x_at = [&](double y) {
+      const double share = rise > 0.0 ? std::clamp((y - low.y) / rise, 0.0, 1.0) : y > low.y ? 1.0 : 0.0;
+      return low.x + share * (high.x - low.x);
+    };
+    const double x0 = x_at(y_low);
+    const double x1 = x_at(y_high);
+    return {std::min(x0, x1), std::max(x0, x1)};
+  }
+
+  const DiscGround& ground_;
+  std::vector<std::uint32_t> epoch_;
+  std::uint32_t now_ = 0;
 };
 
 /// What of the searches of one question is the same.
@@ -113,12 +168,12 @@ class DiscSight {
   }
 
   void see(SideId side) {
-    if (side / 2 == ends()) return sight_.from_point(start, SightLines::reflex, goal, seen_);
+    if (side / 2 == ends()) return sight_.from_point(start, VisibilityEdges::discs, goal, seen_);
     const DiscCircle& circle = ground.circles[side / 2];
     const VertexId v = circle.vertex;
     if (known_ == nullptr) return sight_.within_ranges(v, ranges_of(circle, side % 2 != 0), goal, seen_);
     if (!goal_seen_) {
-      sight_.from_point(goal, SightLines::reflex, std::nullopt, seen_);
+      sight_.from_point(goal, VisibilityEdges::discs, std::nullopt, seen_);
       goal_seen_ = seen_;
     }
     seen_.assign(known_->neighbours(v).begin(), known_->neighbours(v).end());
@@ -183,7 +238,8 @@ class DiscSearch {
   std::vector<TangentWay> search() {
     draw_from(start_, [&](std::uint32_t number) { offer(number, ways_[number].length, no_tangent); });
     while (!queue_.empty()) {
-      const std::uint32_t number = pop();
+      const std::uint32_t number = queue_.top().way;
+      queue_.pop();
       if (ways_[number].settled) continue;
       ways_[number].settled = true;
       if (++settled_ % settled_per_poll == 0) sight_.execution.check();
@@ -460,29 +516,22 @@ class DiscSearch {
     std::uint32_t way;
   };
   /// Ties break by the sides, whatever the order in which ways were drawn: with a roadmap it is another.
-  auto later() const {
-    return [this](const Queued& a, const Queued& b) {
+  struct IsLater {
+    const std::vector<TangentWay>* ways;
+    bool operator()(const Queued& a, const Queued& b) const {
       if (a.key != b.key) return a.key > b.key;
-      const TangentWay& v = ways_[a.way];
-      const TangentWay& w = ways_[b.way];
+      const TangentWay& v = (*ways)[a.way];
+      const TangentWay& w = (*ways)[b.way];
       return v.from != w.from ? v.from > w.from : v.to > w.to;
-    };
-  }
+    }
+  };
   void offer(std::uint32_t number, double cost, std::uint32_t parent) {
     TangentWay& way = ways_[number];
     if (way.settled || !(cost < way.cost)) return;
     way.cost = cost;
     way.parent = parent;
     const double rest = norm(sight_.goal - centre(way.to) - spoke(way.to, way.along));
-    queue_.push_back({cost + rest, number});
-    std::push_heap(queue_.begin(), queue_.end(), later());
-  }
-
-  std::uint32_t pop() {
-    std::pop_heap(queue_.begin(), queue_.end(), later());
-    const std::uint32_t way = queue_.back().way;
-    queue_.pop_back();
-    return way;
+    queue_.push({cost + rest, number});
   }
 
   std::vector<TangentWay> chain_to(std::uint32_t number) const {
@@ -520,31 +569,9 @@ class DiscSearch {
   std::vector<CircleSide> sides_;
   const SideId start_, goal_;
   std::vector<TangentWay> ways_;
-  std::vector<Queued> queue_;
+  std::priority_queue<Queued, std::vector<Queued>, IsLater> queue_{IsLater{&ways_}};
   std::uint64_t settled_ = 0;
 };
-
-/// A point's path: circles of radius 0 are corners.
-DiscPath path_of_point(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal, const Execution& execution) {
-  constexpr double most_roundings = 4.0;  // a leg, in units of its length
-  VisibilityOptions options;
-  options.lazy = true;
-  const Solution<Vec2> found = confined_visibility_path(obstacles, start, goal, options, execution);
-  if (found.outcome == Outcome::stopped) throw Stopped(found.stop_reason);
-  DiscPath path;
-  path.outcome = found.outcome == Outcome::not_connected ? Outcome::infeasible : found.outcome;
-  if (path.outcome == Outcome::infeasible) path.lower_bound = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < found.path.size(); ++i) {
-    path.pieces.push_back({found.path[i - 1], found.path[i], std::nullopt, false, 0.0});
-    path.length += distance(found.path[i - 1], found.path[i]);
-  }
-  const double roundings = most_roundings + static_cast<double>(path.pieces.size());
-  if (path.outcome == Outcome::solved) path.lower_bound = path.length * (1.0 - roundings * unit_rounding);
-  path.checked = found.counters.edges_checked;
-  path.free = found.counters.edges_free;
-  path.arrivals = found.counters.expanded;
-  return path;
-}
 
 /// The largest coordinate's size, and the world's: what roundings are parts of.
 struct WorldSize {
@@ -568,9 +595,8 @@ class DiscPlan {
         doubt_(1e-12 * radius + 64.0 * unit_rounding * size_.extent),
         room_(doubt_ + 8.0 * unit_rounding * size_.largest),
         sight_(ground, known, start, goal, radius + room_, execution),
-        rounding_(8.0 * unit_rounding * size_.largest + doubt_),
-        loose_(sight_, {radius, radius - 0.5 * doubt_, true}, rounding_, path_),
-        tight_(sight_, {radius + room_, radius + 0.5 * room_, false}, rounding_, path_) {
+        loose_(sight_, {radius, radius - 0.5 * doubt_, true}, room_, path_),
+        tight_(sight_, {radius + room_, radius + 0.5 * room_, false}, room_, path_) {
     path_.radius = radius + room_;
     path_.circles = ground.circles.size();
   }
@@ -615,9 +641,8 @@ class DiscPlan {
 
   const WorldSize size_;
   const double doubt_;  // what counts as rounding
-  const double room_;   // by which circles are larger
+  const double room_;   // by which circles are larger, and more than coordinates are rounded by
   DiscSight sight_;
-  const double rounding_;  // of coordinates
   DiscPath path_;
   DiscSearch loose_;
   DiscSearch tight_;
@@ -633,20 +658,9 @@ std::uint64_t DiscPath::arcs() const {
   return count;
 }
 
-DiscPath shortest_disc_path(const DiscGround& ground, Vec2 start, Vec2 goal, double radius,
-                            const Execution& execution) {
-  return DiscPlan(ground, nullptr, start, goal, radius, execution).run();
-}
-
-DiscPath shortest_disc_path(const DiscRoadmap& roadmap, Vec2 start, Vec2 goal, double radius,
-                            const Execution& execution) {
-  return DiscPlan(roadmap.ground, &roadmap.graph.graph(), start, goal, radius, execution).run();
-}
-
-DiscPath shortest_disc_path(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal, double radius,
-                            const Execution& execution) {
-  if (!(radius > 0.0)) return path_of_point(obstacles, start, goal, execution);
-  return shortest_disc_path(DiscGround(obstacles, execution), start, goal, radius, execution);
+DiscPath shortest_disc_path(const DiscGround& ground, Vec2 start, Vec2 goal, double radius, const Execution& execution,
+                            const Graph* known) {
+  return DiscPlan(ground, known, start, goal, radius, execution).run();
 }
 
 Path<Vec2> polyline_of(const DiscPath& path, const Execution& execution) {

@@ -28,7 +28,6 @@
 
 #include "core/base/solution.hpp"
 #include "core/base/types.hpp"
-#include "core/plane/polygon.hpp"
 #include "core/run/execution.hpp"
 #include "planners/visibility/disc_ground.hpp"
 
@@ -61,15 +60,11 @@ struct DiscPath {
   std::uint64_t arcs() const;
 };
 
-/// Plans for the centre of a disc of this radius, >= 0 and finite; for 0, a point, contact is allowed. The bounds are
-/// obstacles for the whole disc; without them the centre stays in the obstacles' box. A function of the problem alone,
-/// on the caller's thread. Throws Stopped.
-DiscPath shortest_disc_path(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal, double radius,
-                            const Execution& execution);
-/// The same, radius > 0, where the ground is there already, or a roadmap.
-DiscPath shortest_disc_path(const DiscGround& ground, Vec2 start, Vec2 goal, double radius, const Execution& execution);
-DiscPath shortest_disc_path(const DiscRoadmap& roadmap, Vec2 start, Vec2 goal, double radius,
-                            const Execution& execution);
+/// Plans for the centre of a disc of this radius, > 0 and finite. The bounds are obstacles for the whole disc; without
+/// them the centre stays in the obstacles' box. known: who sees whom, where that is there already. A function of the
+/// problem alone, on the caller's thread. Throws Stopped.
+DiscPath shortest_disc_path(const DiscGround& ground, Vec2 start, Vec2 goal, double radius, const Execution& execution,
+                            const Graph* known = nullptr);
 
 /// How far an arc turns, at most, from corner to corner of the polyline.
 inline constexpr double turn_of_polyline_rad = 0.005;

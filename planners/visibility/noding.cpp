@@ -17,12 +17,6 @@ namespace {
 /// How far rounding to the nearest point of a grid moves a point at most, in units of the grid.
 constexpr double rounding_units = 0.7072;
 
-/// A segment between integers (of at most 2^45, held as doubles).
-struct IntegerPiece {
-  Vec2 a, b;
-  std::uint32_t source;  ///< whatever it is a piece of
-};
-
 /// A place where a piece must be cut.
 struct PieceCut {
   std::uint32_t piece;
@@ -207,9 +201,9 @@ PolygonSet with_cuts(const PolygonSet& polygons, const std::vector<IntegerPiece>
 
 SnappedSegments snap_segments(std::span<const Segment> segments, const Execution& execution) {
   if (segments.size() >= std::size_t{1} << 31) throw InputError("medial axis", "expected fewer than 2^31 segments");
-  execution.reserve(segments.size() * (sizeof(IntegerPiece) + sizeof(SnappedSegment) + 16));
+  execution.reserve(segments.size() * 2 * sizeof(IntegerPiece));
   SnappedSegments result{grid_of(segments), {}, 0.0};
-  std::vector<IntegerPiece> pieces;
+  std::vector<IntegerPiece>& pieces = result.segments;
   pieces.reserve(segments.size());
   bool is_exact = true;
   for (std::size_t i = 0; i < segments.size(); ++i) {
@@ -227,11 +221,6 @@ SnappedSegments snap_segments(std::span<const Segment> segments, const Execution
     if (round == most_rounds) throw InputError("medial axis", "obstacles cross too often within a rounding unit");
     if (found.crossed) result.error += rounding_units * result.grid.unit;
     pieces = split(pieces, found.cuts, execution);
-  }
-  result.segments.reserve(pieces.size());
-  for (const IntegerPiece& p : pieces) {
-    result.segments.push_back({static_cast<std::int32_t>(p.a.x), static_cast<std::int32_t>(p.a.y),
-                               static_cast<std::int32_t>(p.b.x), static_cast<std::int32_t>(p.b.y), p.source});
   }
   return result;
 }

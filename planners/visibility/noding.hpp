@@ -19,10 +19,10 @@
 
 namespace warren {
 
-/// A piece of one of the given segments, in grid units; of length zero: a point.
-struct SnappedSegment {
-  std::int32_t x1, y1, x2, y2;
-  std::uint32_t source;  ///< the lowest number of the segments that it is a piece of
+/// A segment between integers (of at most 2^45, held as doubles); of length zero: a point.
+struct IntegerPiece {
+  Vec2 a, b;
+  std::uint32_t source;  ///< the number of what it is a piece of; the lowest one of what lies on it
 };
 
 /// The grid: a world point is origin + unit * (x, y).
@@ -35,8 +35,8 @@ struct SnapGrid {
 
 struct SnappedSegments {
   SnapGrid grid;
-  std::vector<SnappedSegment> segments;
-  double error = 0.0;  ///< world units: how far a piece may lie from its segment, at most
+  std::vector<IntegerPiece> segments;  ///< in grid units
+  double error = 0.0;                  ///< world units: how far a piece may lie from its segment, at most
 };
 
 /// Segments that meet at their ends only. Coordinates are scaled by a power of two and rounded to integers of at most

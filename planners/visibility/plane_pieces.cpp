@@ -55,9 +55,7 @@ std::vector<PointId> number_points(std::span<const Vec2> ends, std::vector<Vec2>
   std::vector<std::uint32_t> order(ends.size());
   std::iota(order.begin(), order.end(), 0U);
   polled_sort(order.begin(), order.end(), execution, [&](std::uint32_t i, std::uint32_t j) {
-    if (ends[i].x != ends[j].x) return ends[i].x < ends[j].x;
-    if (ends[i].y != ends[j].y) return ends[i].y < ends[j].y;
-    return i < j;
+    return ends[i] == ends[j] ? i < j : is_before(ends[i], ends[j]);
   });
   std::vector<PointId> number(ends.size());  // first of all the first end at the same place
   for (std::size_t k = 0; k < order.size(); ++k) {
@@ -99,11 +97,7 @@ Vec2 direction_at(double place) {
 }
 
 /// The first and the last direction, anticlockwise, in which the box lies; the origin is not in it.
-struct BoxView {
-  Vec2 first;
-  Vec2 last;
-};
-BoxView view_of(const Box& b) {
+std::pair<Vec2, Vec2> view_of(const Box& b) {
   if (b.min.x > 0.0) {
     if (b.min.y > 0.0) return {{b.max.x, b.min.y}, {b.min.x, b.max.y}};
     if (b.max.y < 0.0) return {b.min, b.max};
@@ -351,9 +345,9 @@ bool NearPieces::is_hidden(SegmentGrid::Cell cell) const {
   const Vec2 nearest{std::max({box.min.x, -box.max.x, 0.0}), std::max({box.min.y, -box.max.y, 0.0})};
   const double distance = norm(nearest);
   if (!(distance > 0.0)) return false;
-  const BoxView view = view_of(box);
-  const double first = direction_place(view.first) + 4.0 - place_margin;
-  double last = direction_place(view.last) + 4.0 + place_margin;
+  const auto [rightmost, leftmost] = view_of(box);
+  const double first = direction_place(rightmost) + 4.0 - place_margin;
+  double last = direction_place(leftmost) + 4.0 + place_margin;
   if (last < first) last += 4.0;
   const auto end = static_cast<std::size_t>(last * scale);
   for (auto i = static_cast<std::size_t>(first * scale); i <= end; ++i) {

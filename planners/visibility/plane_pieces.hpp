@@ -32,8 +32,7 @@ using PointId = std::uint32_t;
 struct Piece {
   PointId a;
   PointId b;
-  std::int32_t
-      rise;  ///< polygons on the left of a -> b minus polygons on its right; outside of the bounds counts as one
+  std::int32_t rise;  ///< polygons left of a -> b minus those on its right; outside of the bounds counts as one
 };
 
 /// Immutable; any number of threads may read.

@@ -107,111 +107,105 @@ inline bool is_nearer(const SeenPiece& e, const SeenPiece& f) {
   return orient2d(f.first, f.last, e.first) >= 0 && orient2d(f.first, f.last, e.last) >= 0;
 }
 
-class NearestPieces {
+/// What both kinds keep: the pieces by number, those that are crossed, and where among these each stands.
+class HeldPieces {
  public:
   /// Empty again, for pieces 0 .. pieces.size() - 1, which must outlive the use.
   void reset(std::span<const SeenPiece> pieces) {
     pieces_ = pieces;
-    heap_.clear();
+    held_.clear();
     if (place_.size() < pieces.size()) place_.resize(pieces.size());
   }
+
+ protected:
+  std::span<const SeenPiece> pieces_;
+  std::vector<std::uint32_t> held_;
+  std::vector<std::uint32_t> place_;
+};
+
+class NearestPieces : public HeldPieces {
+ public:
   void insert(std::uint32_t piece) {
-    heap_.push_back(piece);
-    sift_up(heap_.size() - 1, piece);
+    held_.push_back(piece);
+    sift_up(held_.size() - 1, piece);
   }
   /// The piece must be there.
   void remove(std::uint32_t piece) {
     const std::size_t at = place_[piece];
-    const std::uint32_t last = heap_.back();
-    heap_.pop_back();
-    if (at == heap_.size()) return;
-    if (at > 0 && nearer(last, heap_[(at - 1) / 2])) {
+    const std::uint32_t last = held_.back();
+    held_.pop_back();
+    if (at == held_.size()) return;
+    if (at > 0 && nearer(last, held_[(at - 1) / 2])) {
       sift_up(at, last);
     } else {
       sift_down(at, last);
     }
   }
-  bool hides(Vec2 q) { return !heap_.empty() && lies_before(pieces_[heap_.front()], q); }
+  bool hides(Vec2 q) { return !held_.empty() && lies_before(pieces_[held_.front()], q); }
 
  private:
   bool nearer(std::uint32_t e, std::uint32_t f) const { return is_nearer(pieces_[e], pieces_[f]); }
   void put(std::size_t at, std::uint32_t piece) {
-    heap_[at] = piece;
+    held_[at] = piece;
     place_[piece] = static_cast<std::uint32_t>(at);
   }
   void sift_up(std::size_t at, std::uint32_t piece) {
-    for (; at > 0 && nearer(piece, heap_[(at - 1) / 2]); at = (at - 1) / 2) put(at, heap_[(at - 1) / 2]);
+    for (; at > 0 && nearer(piece, held_[(at - 1) / 2]); at = (at - 1) / 2) put(at, held_[(at - 1) / 2]);
     put(at, piece);
   }
   void sift_down(std::size_t at, std::uint32_t piece) {
     for (;;) {
       std::size_t child = 2 * at + 1;
-      if (child >= heap_.size()) break;
-      if (child + 1 < heap_.size() && nearer(heap_[child + 1], heap_[child])) ++child;
-      if (!nearer(heap_[child], piece)) break;
-      put(at, heap_[child]);
+      if (child >= held_.size()) break;
+      if (child + 1 < held_.size() && nearer(held_[child + 1], held_[child])) ++child;
+      if (!nearer(held_[child], piece)) break;
+      put(at, held_[child]);
       at = child;
     }
     put(at, piece);
   }
-
-  std::span<const SeenPiece> pieces_;
-  std::vector<std::uint32_t> heap_;
-  std::vector<std::uint32_t> place_;
 };
 
-class CrossedPieces {
+class CrossedPieces : public HeldPieces {
  public:
-  void reset(std::span<const SeenPiece> pieces) {
-    pieces_ = pieces;
-    list_.clear();
-    if (place_.size() < pieces.size()) place_.resize(pieces.size());
-  }
   void insert(std::uint32_t piece) {
-    place_[piece] = static_cast<std::uint32_t>(list_.size());
-    list_.push_back(piece);
+    place_[piece] = static_cast<std::uint32_t>(held_.size());
+    held_.push_back(piece);
   }
   void remove(std::uint32_t piece) {
-    const std::uint32_t last = list_.back();
-    list_[place_[piece]] = last;
+    const std::uint32_t last = held_.back();
+    held_[place_[piece]] = last;
     place_[last] = place_[piece];
-    list_.pop_back();
+    held_.pop_back();
   }
   bool hides(Vec2 q) {
-    for (std::size_t i = 0; i < list_.size(); ++i) {
-      if (!lies_before(pieces_[list_[i]], q)) continue;
-      std::swap(list_[i], list_.front());
-      place_[list_[i]] = static_cast<std::uint32_t>(i);
-      place_[list_.front()] = 0;
+    for (std::size_t i = 0; i < held_.size(); ++i) {
+      if (!lies_before(pieces_[held_[i]], q)) continue;
+      std::swap(held_[i], held_.front());
+      place_[held_[i]] = static_cast<std::uint32_t>(i);
+      place_[held_.front()] = 0;
       return true;
     }
     return false;
   }
-
- private:
-  std::span<const SeenPiece> pieces_;
-  std::vector<std::uint32_t> list_;
-  std::vector<std::uint32_t> place_;
 };
 
 /// Scratch of one thread; refers to the pieces and the execution, which must outlive it.
 class RotationalSweep {
  public:
-  /// How far the ray turns: half a turn stops before -x.
-  enum class Turn : std::uint8_t { whole, upper_half };
   /// What visit() is told instead of a point's number where it reaches the extra target.
   static constexpr PointId target = 0xffffffffU;
 
   RotationalSweep(const PlanePieces& pieces, const Execution& execution);
 
-  /// near: pieces among which all that are met first by a ray of interest, in any order. wanted: one byte a point, is
-  /// it of interest? extra: one more target. departure(q) tells on which lanes the way towards q may begin (no_lane:
-  /// q's direction is of no interest). visit(point, lanes on which the way arrives) is called for what is reached.
-  /// Throws Stopped.
+  /// upwards: the ray turns half round, and stops before -x. near: pieces among which all that are met first by a ray
+  /// of interest, in any order. wanted: one byte a point, is it of interest? extra: one more target. departure(q) tells
+  /// on which lanes the way towards q may begin (no_lane: q's direction is of no interest). visit(point, lanes on which
+  /// the way arrives) is called for what is reached. Throws Stopped.
   template <class Departure, class Visit>
-  void run(Vec2 eye, Turn how_far, std::span<const std::uint32_t> near, std::span<const std::uint8_t> wanted,
+  void run(Vec2 eye, bool upwards, std::span<const std::uint32_t> near, std::span<const std::uint8_t> wanted,
            std::optional<Vec2> extra, const Departure& departure, const Visit& visit) {
-    half_ = how_far == Turn::upper_half;
+    half_ = upwards;
     prepare(eye, near, extra);
     if (pieces_.crosses()) {
       turn(crossed_, wanted, departure, visit);

@@ -27,12 +27,6 @@ PlaceRange range_of(Vec2 at, const Sector& sector) {
   return apart < doubt || apart > 4.0 - doubt ? all_round : range;
 }
 
-SightLines lines_of(VisibilityEdges edges) {
-  return edges == VisibilityEdges::full    ? SightLines::all
-         : edges == VisibilityEdges::discs ? SightLines::reflex
-                                           : SightLines::tangent;
-}
-
 /// Of some vertices in a row: the neighbours above each.
 struct Rows {
   RawVector<VertexId> targets;
@@ -42,7 +36,7 @@ struct Rows {
 /// Vertices a chunk: few enough to share the work, enough to pay for a chunk's scratch, which is O(n).
 std::size_t grain_for(std::size_t vertices) { return std::clamp<std::size_t>(vertices / 256, 16, 1024); }
 
-std::vector<Rows> rows_above(const VisibleCorners& corners, SightLines which, const Execution& execution) {
+std::vector<Rows> rows_above(const VisibleCorners& corners, VisibilityEdges which, const Execution& execution) {
   return parts_of_chunks(corners.size(), grain_for(corners.size()), execution, [&](Range r) {
     CornerSight sight(corners, execution);
     std::vector<VertexId> seen;
@@ -159,7 +153,7 @@ bool VisibleCorners::is_blocked(Vec2 at) const {
 CornerSight::CornerSight(const VisibleCorners& corners, const Execution& execution)
     : corners_(corners), near_(corners.pieces(), execution), sweep_(corners.pieces(), execution) {}
 
-void CornerSight::arrive(Vec2 eye, PointId p, Lanes lanes, SightLines which, std::vector<VertexId>& seen) const {
+void CornerSight::arrive(Vec2 eye, PointId p, Lanes lanes, VisibilityEdges which, std::vector<VertexId>& seen) const {
   const Vec2 at = corners_.pieces().points()[p];
   const VertexId first = corners_.vertices_first(p);
   const VertexId end = corners_.vertices_first(p + 1);
@@ -171,18 +165,18 @@ void CornerSight::arrive(Vec2 eye, PointId p, Lanes lanes, SightLines which, std
       const bool right = (lanes & right_lane) != 0 && (back & left_lane) != 0;
       if (!left && !right) continue;
     }
-    if (which != SightLines::all && !corners_.is_reflex(v)) continue;
-    if (which == SightLines::tangent && !is_tangent(at, sector, eye)) continue;
+    if (which != VisibilityEdges::full && !corners_.is_reflex(v)) continue;
+    if (which == VisibilityEdges::reduced && !is_tangent(at, sector, eye)) continue;
     seen.push_back(v);
   }
 }
 
 template <class Departure>
-void CornerSight::look(Vec2 eye, RotationalSweep::Turn how_far, std::span<const PlaceRange> ranges, SightLines which,
+void CornerSight::look(Vec2 eye, bool upwards, std::span<const PlaceRange> ranges, VisibilityEdges which,
                        std::optional<Vec2> extra, const Departure& departure, std::vector<VertexId>& seen) {
-  const std::vector<std::uint8_t>& wanted = which == SightLines::all ? corners_.any_ : corners_.reflex_;
-  const auto near = near_.look(eye, ranges, how_far == RotationalSweep::Turn::upper_half);
-  sweep_.run(eye, how_far, near, wanted, extra, departure, [&](PointId p, Lanes lanes) {
+  const std::vector<std::uint8_t>& wanted = which == VisibilityEdges::full ? corners_.any_ : corners_.reflex_;
+  const auto near = near_.look(eye, ranges, upwards);
+  sweep_.run(eye, upwards, near, wanted, extra, departure, [&](PointId p, Lanes lanes) {
     if (p == RotationalSweep::target) {
       seen.push_back(target);
     } else {
@@ -192,10 +186,10 @@ void CornerSight::look(Vec2 eye, RotationalSweep::Turn how_far, std::span<const 
   std::sort(seen.begin(), seen.end());
 }
 
-void CornerSight::above_vertex(VertexId v, SightLines which, std::vector<VertexId>& seen) {
+void CornerSight::above_vertex(VertexId v, VisibilityEdges which, std::vector<VertexId>& seen) {
   seen.clear();
-  const bool tangent = which == SightLines::tangent;
-  if (which != SightLines::all && !corners_.is_reflex(v)) return;
+  const bool tangent = which == VisibilityEdges::reduced;
+  if (which != VisibilityEdges::full && !corners_.is_reflex(v)) return;
   const Vec2 eye = corners_.position(v);
   const Sector sector = corners_.sector(v);
   const PlaceRange all = range_of(eye, sector);
@@ -209,7 +203,7 @@ void CornerSight::above_vertex(VertexId v, SightLines which, std::vector<VertexI
     const Lanes lanes = lanes_in_sector(eye, sector, q);
     return tangent && lanes != no_lane && !is_tangent(eye, sector, q) ? no_lane : lanes;
   };
-  look(eye, RotationalSweep::Turn::upper_half, ranges, which, std::nullopt, departure, seen);
+  look(eye, true, ranges, which, std::nullopt, departure, seen);
 }
 
 void CornerSight::within_ranges(VertexId v, std::span<const PlaceRange> ranges, std::optional<Vec2> extra,
@@ -227,7 +221,7 @@ void CornerSight::within_ranges(VertexId v, std::span<const PlaceRange> ranges, 
     });
     return looked ? lanes_in_sector(eye, sector, q) : no_lane;
   };
-  look(eye, RotationalSweep::Turn::whole, ranges, SightLines::reflex, extra, departure, seen);
+  look(eye, false, ranges, VisibilityEdges::discs, extra, departure, seen);
 }
 
 void CornerSight::taut_from_vertex(VertexId v, Vec2 from, std::optional<Vec2> extra, std::vector<VertexId>& seen) {
@@ -250,28 +244,28 @@ void CornerSight::taut_from_vertex(VertexId v, Vec2 from, std::optional<Vec2> ex
     return !DirectionOrder(eye).same(from, q);
   };
   const auto departure = [&](Vec2 q) { return is_taut(q) ? lanes_in_sector(eye, sector, q) : no_lane; };
-  look(eye, RotationalSweep::Turn::whole, ranges, SightLines::tangent, extra, departure, seen);
+  look(eye, false, ranges, VisibilityEdges::reduced, extra, departure, seen);
 }
 
-void CornerSight::from_point(Vec2 p, SightLines which, std::optional<Vec2> extra, std::vector<VertexId>& seen) {
+void CornerSight::from_point(Vec2 p, VisibilityEdges which, std::optional<Vec2> extra, std::vector<VertexId>& seen) {
   seen.clear();
   for (const Sector& sector : free_sectors(corners_.pieces(), p)) {
     const PlaceRange range = range_of(p, sector);
     const auto departure = [&](Vec2 q) { return lanes_in_sector(p, sector, q); };
-    look(p, RotationalSweep::Turn::whole, {&range, 1}, which, extra, departure, seen);
+    look(p, false, {&range, 1}, which, extra, departure, seen);
   }
   seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
 }
 
-VisibilityGraph::VisibilityGraph(const VisibleCorners& corners, Graph graph, VisibilityEdges edges)
-    : corners_(corners), which_(lines_of(edges)), positions_(corners.size()), graph_(std::move(graph)) {
+VisibilityGraph::VisibilityGraph(const VisibleCorners& corners, VisibilityEdges edges, const Execution& execution,
+                                 std::optional<Graph> known)
+    : corners_(corners), which_(edges), positions_(corners.size()) {
   for (VertexId v = 0; v < positions_.size(); ++v) positions_[v] = corners.position(v);
-}
-
-VisibilityGraph::VisibilityGraph(const VisibleCorners& corners, VisibilityEdges edges, const Execution& execution)
-    : VisibilityGraph(corners, Graph(), edges) {
-  std::vector<Rows> parts = rows_above(corners, which_, execution);
-  graph_ = graph_of_rows(positions_.size(), parts, execution);
+  if (!known) {
+    std::vector<Rows> parts = rows_above(corners, which_, execution);
+    known = graph_of_rows(positions_.size(), parts, execution);
+  }
+  graph_ = std::move(*known);
 }
 
 VisibilityLinks VisibilityGraph::link(Vec2 start, Vec2 goal, const Execution& execution) const {
@@ -361,10 +355,9 @@ double depth_inside(const PolygonIndex& polygons, const Segment& segment, std::s
     const auto polygon = polygons.polygon_around(p);
     if (!polygon) continue;
     double depth = std::numeric_limits<double>::infinity();
-    for (std::size_t side = polygons.polygons().first[*polygon]; side < polygons.polygons().first[*polygon + 1];
-         ++side) {
-      depth = std::min(depth, distance(p, polygons.side(side)));
-    }
+    for_each_side(polygons.polygons()[*polygon], [&](Vec2 a, Vec2 b) {
+      depth = std::min(depth, distance(p, Segment{a, b}));
+    });
     deepest = std::max(deepest, depth);
   }
   return deepest;

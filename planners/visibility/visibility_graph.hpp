@@ -75,8 +75,9 @@ class VisibleCorners {
   std::vector<std::uint8_t> reflex_;  // one a point: has it a reflex one?
 };
 
-/// Which neighbours count: all, those that are tangent, or those with a sector wider than half a turn.
-enum class SightLines : std::uint8_t { all, tangent, reflex };
+/// Which neighbours count, as edges of a graph too. reduced: those that are tangent, which a point's shortest paths
+/// take; full: all; discs: those with a sector wider than half a turn, which a disc's could follow.
+enum class VisibilityEdges : std::uint8_t { reduced, full, discs };
 
 /// Looks from vertices and from other points; scratch of one thread. The corners and the execution must outlive it.
 /// Throws Stopped.
@@ -89,7 +90,7 @@ class CornerSight {
 
   /// Replaces `seen` by half of the neighbours of v, ascending: those above it and, at its height, on its right. So of
   /// each pair of neighbours one sees the other.
-  void above_vertex(VertexId v, SightLines which, std::vector<VertexId>& seen);
+  void above_vertex(VertexId v, VisibilityEdges which, std::vector<VertexId>& seen);
   /// The neighbours of v with a sector wider than half a turn that lie in the ranges, and beyond their reach some that
   /// are none; ascending, `target` last. v has such a sector, too. extra: one more target.
   void within_ranges(VertexId v, std::span<const PlaceRange> ranges, std::optional<Vec2> extra,
@@ -97,24 +98,20 @@ class CornerSight {
   /// The tangent neighbours of v to which a way that came straight from `from` may bend and still be taut, ascending,
   /// `target` last. extra: one more target.
   void taut_from_vertex(VertexId v, Vec2 from, std::optional<Vec2> extra, std::vector<VertexId>& seen);
-  /// The vertices (with SightLines::tangent those of which the way there is a tangent) that are seen from any point
-  /// that is not blocked.
-  void from_point(Vec2 p, SightLines which, std::optional<Vec2> extra, std::vector<VertexId>& seen);
+  /// The vertices (with VisibilityEdges::reduced those of which the way there is a tangent) that are seen from any
+  /// point that is not blocked.
+  void from_point(Vec2 p, VisibilityEdges which, std::optional<Vec2> extra, std::vector<VertexId>& seen);
 
  private:
   template <class Departure>
-  void look(Vec2 eye, RotationalSweep::Turn how_far, std::span<const PlaceRange> ranges, SightLines which,
+  void look(Vec2 eye, bool upwards, std::span<const PlaceRange> ranges, VisibilityEdges which,
             std::optional<Vec2> extra, const Departure& departure, std::vector<VertexId>& seen);
-  void arrive(Vec2 eye, PointId p, Lanes lanes, SightLines which, std::vector<VertexId>& seen) const;
+  void arrive(Vec2 eye, PointId p, Lanes lanes, VisibilityEdges which, std::vector<VertexId>& seen) const;
 
   const VisibleCorners& corners_;
   NearPieces near_;
   RotationalSweep sweep_;
 };
-
-/// Which edges a graph has: those that a point's shortest paths take, all, or those that a disc's could follow
-/// (SightLines::tangent, all, reflex).
-enum class VisibilityEdges : std::uint8_t { reduced, full, discs };
 
 /// What start and goal see: vertices of the graph, ascending.
 struct VisibilityLinks {
@@ -130,10 +127,10 @@ struct VisibilityLinks {
 /// Immutable after construction; any number of threads may link and search.
 class VisibilityGraph {
  public:
-  /// Throws Stopped at the deadline or the memory limit, InputError for more than 2^32 - 1 edge ends.
-  VisibilityGraph(const VisibleCorners& corners, VisibilityEdges edges, const Execution& execution);
-  /// The same where its edges are known: `graph` has a vertex a corner.
-  VisibilityGraph(const VisibleCorners& corners, Graph graph, VisibilityEdges edges);
+  /// known: its graph, where that is there already: it has a vertex a corner. Throws Stopped at the deadline or the
+  /// memory limit, InputError for more than 2^32 - 1 edge ends.
+  VisibilityGraph(const VisibleCorners& corners, VisibilityEdges edges, const Execution& execution,
+                  std::optional<Graph> known = {});
 
   /// Over the vertices of the corners, without start and goal.
   const Graph& graph() const { return graph_; }
@@ -168,7 +165,7 @@ class VisibilityGraph {
 
  private:
   const VisibleCorners& corners_;
-  SightLines which_;
+  VisibilityEdges which_;
   RawVector<Vec2> positions_;
   Graph graph_;
 };

@@ -2,7 +2,6 @@
 #include "planners/visibility/visibility_path.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "core/base/error.hpp"
@@ -45,7 +44,7 @@ SearchResult lazy_visibility_search(const VisibleCorners& corners, Vec2 start, V
   const auto neighbours = [&](VertexId v, const auto& visit) {
     if (++counters.neighbour_queries % looks_per_poll == 0) execution.check();
     if (v == n) {
-      sight.from_point(start, SightLines::tangent, goal, seen);
+      sight.from_point(start, VisibilityEdges::reduced, goal, seen);
     } else {
       sight.taut_from_vertex(v, at(state.parent(v)), goal, seen);
     }
@@ -68,7 +67,9 @@ class VisibilityPlan {
  public:
   VisibilityPlan(const Box& box, Vec2 start, Vec2 goal, const VisibilityOptions& options, const Execution& execution,
                  PlannedRoadmap<Vec2>* keep)
-      : box_(box), start_(start), goal_(goal), options_(options), execution_(execution), keep_(keep) {}
+      : box_(box), start_(start), goal_(goal), options_(options), execution_(execution), keep_(keep) {
+    options.validate();
+  }
 
   void run(const PlaneObstacles& obstacles) {
     const VisibleCorners corners = index(obstacles);
@@ -86,8 +87,9 @@ class VisibilityPlan {
 
   /// False where there is nothing to search.
   bool begin(const VisibleCorners& corners) {
-    if (!box_.contains(start_) || corners.is_blocked(start_)) return end(Outcome::start_blocked), false;
-    if (!box_.contains(goal_) || corners.is_blocked(goal_)) return end(Outcome::goal_blocked), false;
+    const auto fits = [&](Vec2 p) { return (box_.empty() || box_.contains(p)) && !corners.is_blocked(p); };
+    if (!fits(start_)) return end(Outcome::start_blocked), false;
+    if (!fits(goal_)) return end(Outcome::goal_blocked), false;
     solution_.roadmap.milestones = corners.size() + 2;
     if (!(start_ == goal_)) return true;
     solution_.path = {start_, goal_};
@@ -111,15 +113,12 @@ class VisibilityPlan {
     const bool plain = !has_queue(options_.search);
     SearchState state;
     if (plain || keep_ != nullptr) roadmap_.graph = visibility.joined(links, execution_);
-    const SearchResult found = plain ? search_plainly(state) : search_best(visibility, links, state);
+    const SearchResult found = plain ? search_blindly(options_.search, roadmap_.graph, visibility.start_vertex(),
+                                                      visibility.goal_vertex(), state, execution_)
+                                     : search_best(visibility, links, state);
     if (found.status == SearchStatus::exhausted) separate(visibility, visibility.joined(links, execution_));
     if (keep_ != nullptr) roadmap_.search_tree = search_tree(state);
     finish(visibility.positions(), found);
-  }
-
-  SearchResult search_plainly(SearchState& state) const {
-    const auto start = static_cast<VertexId>(roadmap_.graph.vertex_count() - 2);
-    return search_blindly(options_.search, roadmap_.graph, start, start + 1, state, execution_);
   }
 
   SearchResult search_best(const VisibilityGraph& visibility, const VisibilityLinks& links, SearchState& state) const {
@@ -168,7 +167,7 @@ class VisibilityPlan {
     solution_.separation = separation_between<2>(std::move(with_start), std::move(with_goal), execution_);
   }
 
-  const Box box_;
+  const Box box_;  // that confines the point; empty: none does
   const Vec2 start_;
   const Vec2 goal_;
   const VisibilityOptions& options_;
@@ -177,27 +176,6 @@ class VisibilityPlan {
   PlannedRoadmap<Vec2> roadmap_;
   Solution<Vec2> solution_;
 };
-
-/// A box that confines nothing.
-Box whole_plane() {
-  constexpr double endless = std::numeric_limits<double>::infinity();
-  return {{-endless, -endless}, {endless, endless}};
-}
-
-/// Ground: the obstacles, or a roadmap.
-template <class Ground>
-Solution<Vec2> plan_within(const Ground& ground, const Box& box, Vec2 start, Vec2 goal,
-                           const VisibilityOptions& options, const Execution& execution, PlannedRoadmap<Vec2>* keep) {
-  options.validate();
-  VisibilityPlan plan(box, start, goal, options, execution, keep);
-  return run_plan(plan, ground);
-}
-
-/// The box that confines the point.
-Box confining_box(const PlaneObstacles& obstacles) {
-  const Box box = box_around(obstacles);
-  return box.empty() ? whole_plane() : box;
-}
 
 }  // namespace
 
@@ -209,26 +187,28 @@ void VisibilityOptions::validate() const {
 
 Solution<Vec2> visibility_path(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal, const VisibilityOptions& options,
                                const Execution& execution, PlannedRoadmap<Vec2>* keep) {
-  return plan_within(obstacles, whole_plane(), start, goal, options, execution, keep);
+  VisibilityPlan plan(Box{}, start, goal, options, execution, keep);
+  return run_plan(plan, obstacles);
 }
 
 Solution<Vec2> confined_visibility_path(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal,
                                         const VisibilityOptions& options, const Execution& execution,
                                         PlannedRoadmap<Vec2>* keep) {
-  return plan_within(confined(obstacles), confining_box(obstacles), start, goal, options, execution, keep);
+  VisibilityPlan plan(box_around(obstacles), start, goal, options, execution, keep);
+  return run_plan(plan, confined(obstacles));
 }
 
-VisibilityRoadmap::VisibilityRoadmap(const PlaneObstacles& obstacles, VisibilityEdges edges, const Execution& execution)
-    : box(confining_box(obstacles)), corners(confined(obstacles), execution), graph(corners, edges, execution) {}
-
-VisibilityRoadmap::VisibilityRoadmap(const PlaneObstacles& obstacles, VisibilityEdges edges, Graph known,
-                                     const Execution& execution)
-    : box(confining_box(obstacles)), corners(confined(obstacles), execution), graph(corners, std::move(known), edges) {}
+VisibilityRoadmap::VisibilityRoadmap(const PlaneObstacles& obstacles, VisibilityEdges edges, const Execution& execution,
+                                     std::optional<Graph> known)
+    : box(box_around(obstacles)),
+      corners(confined(obstacles), execution),
+      graph(corners, edges, execution, std::move(known)) {}
 
 Solution<Vec2> visibility_path(const VisibilityRoadmap& roadmap, Vec2 start, Vec2 goal,
                                const VisibilityOptions& options, const Execution& execution,
                                PlannedRoadmap<Vec2>* keep) {
-  return plan_within(roadmap, roadmap.box, start, goal, options, execution, keep);
+  VisibilityPlan plan(roadmap.box, start, goal, options, execution, keep);
+  return run_plan(plan, roadmap);
 }
 
 }  // namespace warren

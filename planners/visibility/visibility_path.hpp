@@ -3,6 +3,7 @@
 // graph (planners/visibility/visibility_graph) or lazily.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/base/solution.hpp"
@@ -40,13 +41,13 @@ Solution<Vec2> confined_visibility_path(const PlaneObstacles& obstacles, Vec2 st
 
 /// What of such a confined plan depends on neither start nor goal. Immutable; any number of threads may plan on it.
 struct VisibilityRoadmap {
-  /// Throw as VisibilityGraph's; `known`: its graph.
-  VisibilityRoadmap(const PlaneObstacles& obstacles, VisibilityEdges edges, const Execution& execution);
-  VisibilityRoadmap(const PlaneObstacles& obstacles, VisibilityEdges edges, Graph known, const Execution& execution);
+  /// Throws as VisibilityGraph; `known`: its graph, where that is there already.
+  VisibilityRoadmap(const PlaneObstacles& obstacles, VisibilityEdges edges, const Execution& execution,
+                    std::optional<Graph> known = {});
   VisibilityRoadmap(const VisibilityRoadmap&) = delete;
   VisibilityRoadmap& operator=(const VisibilityRoadmap&) = delete;
 
-  const Box box;
+  const Box box;  ///< that confines the point; empty: none does
   const VisibleCorners corners;
   const VisibilityGraph graph;  ///< refers to the corners
 };

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scenes/arms/dh_table_io.hpp"
-
+// Denavit-Hartenberg tables as text: one item a line, `#` starts a comment, blanks or commas separate.
+//
+//   convention standard|modified          default standard
+//   angles radians|degrees                of all joint lines; default radians
+//   joint D A ALPHA LOW HIGH [OFFSET]     from the base to the tip, 1 to 6 of them
+//   tool X Y Z                            of the last frame; default 0 0 0
 #include <algorithm>
 #include <array>
 #include <numbers>
 #include <string_view>
 #include <vector>
 
+#include "scenes/arms/arm_files_io.hpp"
 #include "scenes/text/scene_text.hpp"
 
 namespace warren {

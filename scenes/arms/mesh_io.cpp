@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Meshes: Wavefront OBJ, STL (binary or text), COLLADA. Only where their surface is counts: normals, colours and the
+// like are passed over.
+//
 // COLLADA: a geometry stands wherever a node of the scene shows it, so points are taken once a showing, and nodes may
 // show nodes: what is visited has a bound, since a few lines can name more showings than there are atoms.
-#include "scenes/arms/mesh_io.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -19,6 +19,7 @@
 #include "core/base/error.hpp"
 #include "parallel/asked_memory.hpp"
 #include "parallel/sort.hpp"
+#include "scenes/arms/arm_files_io.hpp"
 #include "scenes/arms/xml_file_io.hpp"
 #include "scenes/scene/convex_hull.hpp"
 #include "scenes/text/scene_text.hpp"

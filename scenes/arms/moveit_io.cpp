@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scenes/arms/moveit_io.hpp"
-
+// Planning scenes and requests of MoveIt as YAML, as MotionBenchMaker writes them: what is in an arm's way, which links
+// may touch, where joints stand, what is carried; where the arm starts and shall go. The arm itself is none of it: its
+// URDF is named beside them, and joints are known by their names alone.
+//
+// Of a scene: the primitives box, sphere and cylinder of collision objects and attached ones, meshes as their convex
+// hulls, the matrix of allowed collisions, the state of the joints. Cones, planes and octomaps are refused, and frames
+// of links. Of a request: group, start, goals by joints or one by a pose. Its workspace and its planner are left out,
+// constraints on the way are refused. Tolerances are left out: a goal is met as it stands.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,6 +20,7 @@
 
 #include "core/base/error.hpp"
 #include "parallel/asked_memory.hpp"
+#include "scenes/arms/arm_files_io.hpp"
 #include "scenes/arms/solid_text.hpp"
 #include "scenes/text/yaml_file_io.hpp"
 

@@ -54,34 +54,25 @@ void append_numbers(std::string& text, std::span<const double> numbers) {
 
 /// The numbers of a solid that no line gave, and their word.
 std::vector<double> numbers_of(const Solid& solid) {
+  std::vector<double> numbers;
+  const auto add = [&](const Vec3& p) { numbers.insert(numbers.end(), p.begin(), p.end()); };
   const Vec3 middle = solid.pose.translation();
-  std::vector<double> numbers(middle.begin(), middle.end());
-  switch (solid.kind) {
-    case SolidKind::sphere:
-      numbers.push_back(solid.half.x());
-      break;
-    case SolidKind::box: {
-      const auto quaternion = quaternion_of_turn(solid.pose.linear());
-      numbers.insert(numbers.end(), quaternion.begin(), quaternion.end());
-      numbers.insert(numbers.end(), solid.half.begin(), solid.half.end());
-      break;
-    }
-    case SolidKind::cylinder:
-    case SolidKind::capsule: {
-      const Vec3 reach = solid.half.z() * solid.pose.linear().col(2);
-      const Vec3 ends[] = {middle - reach, middle + reach};
-      numbers.clear();
-      for (const Vec3& end : ends) numbers.insert(numbers.end(), end.begin(), end.end());
-      numbers.push_back(solid.half.x());
-      break;
-    }
-    case SolidKind::hull:
-      numbers.clear();
-      for (const Vec3& corner : solid.corners) {
-        const Vec3 at = solid.pose * corner;
-        numbers.insert(numbers.end(), at.begin(), at.end());
-      }
-      break;
+  const Vec3 reach = solid.half.z() * solid.pose.linear().col(2);  // of an axis
+  if (solid.kind == SolidKind::hull) {
+    for (const Vec3& corner : solid.corners) add(solid.pose * corner);
+    return numbers;
+  }
+  if (solid.kind == SolidKind::cylinder || solid.kind == SolidKind::capsule) {
+    add(middle - reach);
+    add(middle + reach);
+  } else {
+    add(middle);
+  }
+  if (solid.kind == SolidKind::box) {
+    for (const double x : quaternion_of_turn(solid.pose.linear())) numbers.push_back(x);
+    add(solid.half);
+  } else {
+    numbers.push_back(solid.half.x());
   }
   return numbers;
 }

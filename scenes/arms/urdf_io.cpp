@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Robots as ROS describes them: URDF, with groups and allowed pairs from an SRDF, as MoveIt reads both. Collision
+// meshes are their convex hulls. What is taken of them is said in docs/file_formats.md, "Robots from files".
+//
 // Joints that don't move are folded into the poses of what hangs on them, so that each link stands in the frame of the
 // last joint above it that moves. All walks go along the joints in depth-first order, none is recursive: URDFs may have
 // any depth.
-#include "scenes/arms/urdf_io.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,7 +20,7 @@
 
 #include "core/base/error.hpp"
 #include "parallel/asked_memory.hpp"
-#include "scenes/arms/mesh_io.hpp"
+#include "scenes/arms/arm_files_io.hpp"
 #include "scenes/arms/urdf_tree_io.hpp"
 #include "scenes/arms/xml_file_io.hpp"
 #include "scenes/scene/convex_hull.hpp"

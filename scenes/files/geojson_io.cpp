@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// GeoJSON (RFC 7946), in and out: a FeatureCollection, Feature or geometry. Polygons and MultiPolygons are obstacles,
+// LineStrings walls; a polygon with holes becomes several that touch (scenes/scene/plane_obstacles). A feature
+// whose properties have a "role" says what else a world holds: "start" and "goal" (Points), "bounds" (a Polygon, taken
+// as its box). Rings of either orientation, closed as the RFC demands; a third coordinate is dropped; features without
+// geometry, properties and foreign members are passed over. Also a bare array of rings, open or closed, as earcut's
+// test data have them: each ring is an obstacle. Read in one pass without a tree.
+//
 // The reader takes the parser's events: an object that has a "type" and "coordinates" is a geometry, whatever the order
 // of its keys; coordinates are collected as chains of points with the depth of their nesting, and interpreted when the
 // object ends.
-
-#include "scenes/files/geojson_io.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -11,12 +16,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "core/base/error.hpp"
 #include "core/base/types.hpp"
 #include "parallel/asked_memory.hpp"
+#include "scenes/files/plane_formats_io.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "scenes/text/json_text.hpp"
 #include "scenes/text/output_file_io.hpp"
@@ -315,7 +322,7 @@ class Writer {
                     "\"coordinates\": {}}}}}",
                     written_ == 1 ? "" : ",", properties, type, coordinates));
   }
-  void ring(std::string_view role, const std::vector<Vec2>& corners) {
+  void ring(std::string_view role, std::span<const Vec2> corners) {
     std::string text = "[[";
     for (std::size_t i = 0; i < corners.size(); ++i) {
       if (i % 4096 == 4095) execution_.check();
@@ -355,10 +362,7 @@ void write_geojson(const Scene& scene, const std::string& path, const Execution&
     throw InputError(path, "GeoJSON holds places X Y, no states with angles; write them to a .scene file");
   }
   Writer writer(path, execution);
-  if (scene.bounds) {
-    const auto [low, high] = *scene.bounds;
-    writer.ring("bounds", {low, {high.x, low.y}, high, {low.x, high.y}});
-  }
+  if (scene.bounds) writer.ring("bounds", scene.bounds->corners());
   if (!scene.start.empty()) writer.feature("start", "Point", position({scene.start[0], scene.start[1]}));
   if (!scene.goal.empty()) writer.feature("goal", "Point", position({scene.goal[0], scene.goal[1]}));
   for (const ScenePolygon& polygon : scene.polygons) writer.ring({}, anticlockwise(polygon.corners));

@@ -5,11 +5,8 @@
 
 #include <numeric>
 #include <optional>
-#include <string_view>
-#include <vector>
 
 #include "core/base/error.hpp"
-#include "scenes/files/png_io.hpp"
 #include "scenes/text/output_file_io.hpp"
 #include "scenes/text/scene_text.hpp"
 

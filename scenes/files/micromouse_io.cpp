@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scenes/files/micromouse_io.hpp"
-
+// Micromouse mazes as text: posts `o`, walls `---` and `|`, S and G in the middle of cells, the top line is the north.
+// 2 H + 1 lines of 4 W + 1 characters; blanks at the ends of lines may be missing. Read as a maze of unit walls. Or as
+// numbers (.num): a line X Y N E S W a cell, counted from 0 in the lower left corner, 1 where a wall is; such mazes
+// begin in that corner and end in one of the middle cells.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +11,7 @@
 
 #include "core/base/error.hpp"
 #include "parallel/asked_memory.hpp"
+#include "scenes/files/plane_formats_io.hpp"
 #include "scenes/text/scene_text.hpp"
 
 namespace warren {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scenes/files/moving_ai_io.hpp"
-
+// Moving AI's grid maps (`type octile`) and scenario files. In the files row 0 is the top row; in an OccupancyMap it is
+// the bottom row, so a scenario's (x, y) is the cell (x, height - 1 - y). LF or CRLF; blanks may follow a line.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 
 #include "core/base/error.hpp"
 #include "parallel/asked_memory.hpp"
+#include "scenes/files/plane_formats_io.hpp"
 #include "scenes/text/output_file_io.hpp"
 #include "scenes/text/scene_text.hpp"
 
@@ -56,10 +57,7 @@ std::vector<std::string_view> fields_of(const TextLines& lines) {
 
 /// A row of a map without what editors leave behind it.
 std::string_view without_trailing_blanks(std::string_view line, std::size_t width) {
-  while (line.size() > width && (line.ends_with(' ') || line.ends_with('\t') || line.ends_with('\r'))) {
-    line.remove_suffix(1);
-  }
-  return line;
+  return line.substr(0, std::max(width, line.find_last_not_of(" \t\r") + 1));  // npos + 1 is 0
 }
 
 template <class T>
@@ -87,24 +85,16 @@ std::uint64_t fill_row(std::string_view line, std::uint32_t y, const scene_text:
   std::uint64_t free = 0;
   for (std::uint32_t x = 0; x < map.width(); ++x) {
     if (x % cells_a_look == 0) execution.check();
-    switch (line[x]) {
-      case '.':
-      case 'G':
-      case 'S':
-        ++free;
-        break;
-      case 'W':
-        if (map.water.empty()) map.water = cell_bitmap(map.width(), map.height(), execution);
-        map.water.set(x, y);
-        [[fallthrough]];
-      case '@':
-      case 'O':
-      case 'T':
-        map.blocked.set(x, y);
-        break;
-      default:
-        place.fail(fmt::format("expected one of . G S W @ O T at column {}", x + 1), line.substr(x, 1));
+    const char c = line[x];
+    if (c == '.' || c == 'G' || c == 'S') {
+      ++free;
+      continue;
     }
+    if (c != '@' && c != 'O' && c != 'T' && c != 'W')
+      place.fail(fmt::format("expected one of . G S W @ O T at column {}", x + 1), line.substr(x, 1));
+    if (c == 'W' && map.water.empty()) map.water = cell_bitmap(map.width(), map.height(), execution);
+    if (c == 'W') map.water.set(x, y);
+    map.blocked.set(x, y);
   }
   return free;
 }

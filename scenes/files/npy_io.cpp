@@ -18,7 +18,6 @@
 
 #include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
-#include "scenes/mazes/maze_generator.hpp"
 #include "scenes/text/output_file_io.hpp"
 #include "scenes/text/scene_text.hpp"
 
@@ -279,11 +278,6 @@ std::string header_of(std::uint64_t walls) {
   return npy_header(sizeof(T) == sizeof(float) ? "<f4" : "<f8", std::array<std::uint64_t, 2>{walls, 4});
 }
 
-/// As Python writes a tuple: "()", "(28,)", "(28, 4)".
-std::string tuple_text(std::span<const std::uint64_t> numbers) {
-  return fmt::format("({}{})", fmt::join(numbers, ", "), numbers.size() == 1 ? "," : "");
-}
-
 }  // namespace
 
 bool is_npy(std::string_view bytes) { return bytes.starts_with(npy_magic); }
@@ -372,8 +366,8 @@ CellPotential read_potential_npy(const InputFile& file, const Execution& executi
 
 std::string npy_header(std::string_view type, std::span<const std::uint64_t> shape) {
   constexpr std::size_t alignment = 64;
-  std::string dictionary =
-      fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': {}, }}", type, tuple_text(shape));
+  std::string dictionary = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}{}), }}", type,
+                                       fmt::join(shape, ", "), shape.size() == 1 ? "," : "");
   std::string header("\x93NUMPY\1\0", 8);
   const std::size_t unpadded = header.size() + 2 + dictionary.size() + 1;
   dictionary.append((alignment - unpadded % alignment) % alignment, ' ').push_back('\n');

@@ -12,7 +12,7 @@
 
 #include "core/base/cell_potential.hpp"
 #include "core/run/execution.hpp"
-#include "scenes/mazes/maze_walls.hpp"
+#include "scenes/mazes/maze_generator.hpp"
 #include "scenes/scene/scene.hpp"
 #include "scenes/text/input_file_io.hpp"
 

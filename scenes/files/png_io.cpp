@@ -3,8 +3,6 @@
 // PngInput, whose owner calls decode. Interlaced images are taken pass by pass as they come (a pass is a picture of
 // every 8th, 4th, 2nd pixel), which spares the memory of a whole picture.
 
-#include "scenes/files/png_io.hpp"
-
 #include <png.h>
 
 #include <cmath>
@@ -14,6 +12,7 @@
 #include <new>
 
 #include "core/base/error.hpp"
+#include "scenes/files/image_io.hpp"
 #include "scenes/text/output_file_io.hpp"
 
 namespace warren {
@@ -81,7 +80,7 @@ void widen(const ImageHeader& header, std::size_t count, PngInput& input) {
 }
 
 /// Owns libpng's two structs.
-class PngReader {
+class PngReader : NotCopied {
  public:
   explicit PngReader(PngInput& input)
       : png_(png_create_read_struct(PNG_LIBPNG_VER_STRING, &input, png_fail, png_warn)),
@@ -89,8 +88,6 @@ class PngReader {
     if (info_ == nullptr) throw std::bad_alloc();
   }
   ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
-  PngReader(const PngReader&) = delete;
-  PngReader& operator=(const PngReader&) = delete;
   png_structp png() const { return png_; }
   png_infop info() const { return info_; }
 

@@ -7,18 +7,12 @@
 #include <set>
 
 #include "core/base/error.hpp"
-#include "scenes/arms/moveit_io.hpp"
-#include "scenes/files/geojson_io.hpp"
+#include "scenes/arms/arm_files_io.hpp"
 #include "scenes/files/image_io.hpp"
 #include "scenes/files/maze_file_io.hpp"
-#include "scenes/files/micromouse_io.hpp"
-#include "scenes/files/moving_ai_io.hpp"
 #include "scenes/files/npy_io.hpp"
-#include "scenes/files/png_io.hpp"
-#include "scenes/files/ring_lists_io.hpp"
-#include "scenes/files/ros_map_io.hpp"
+#include "scenes/files/plane_formats_io.hpp"
 #include "scenes/files/scene_io.hpp"
-#include "scenes/files/wkt_io.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "scenes/text/scene_text.hpp"
 
@@ -53,8 +47,11 @@ class MazeSource {
 
   MazeOptions parse() const {
     std::string_view rest = source_.substr(maze_prefix.size());
+    std::string_view cols = cut(rest, ',');
+    if (cols.find('x') == std::string_view::npos) fail("the size is missing");
     MazeOptions options;
-    parse_size(cut(rest, ','), options);
+    options.rows = side(cut(cols, 'x'), "ROWS");
+    options.cols = side(cols, "COLS");
     std::set<std::string_view> seen;
     while (!rest.empty()) {
       std::string_view value = cut(rest, ',');
@@ -82,12 +79,6 @@ class MazeSource {
                        std::is_integral_v<T> ? "a whole number that is not negative" : "a number", text));
     }
     return *value;
-  }
-  void parse_size(std::string_view size, MazeOptions& options) const {
-    if (size.find('x') == std::string_view::npos) fail("the size is missing");
-    const std::string_view rows = cut(size, 'x');
-    options.rows = side(rows, "ROWS");
-    options.cols = side(size, "COLS");
   }
   std::uint32_t side(std::string_view text, std::string_view name) const {
     const auto value = number<std::uint64_t>(text, name);
@@ -141,31 +132,17 @@ Scene empty_world(std::string_view source) {
 }
 
 Scene read_unchecked(const InputFile& file, const Execution& execution, MapServerRules rules) {
-  switch (format_of(file)) {
-    case WorldFormat::scene:
-      break;
-    case WorldFormat::npy:
-      return read_npy(file, execution);
-    case WorldFormat::maze:
-      return read_maze_file(file, execution);
-    case WorldFormat::micromouse:
-      return read_micromouse(file, execution);
-    case WorldFormat::geojson:
-      return read_geojson(file, execution);
-    case WorldFormat::wkt:
-      return read_wkt(file, execution);
-    case WorldFormat::ring_list:
-      return read_ring_list(file, execution);
-    case WorldFormat::moving_ai:
-      return scene_of(read_moving_ai_map(file, execution));
-    case WorldFormat::ros_map:
-      return scene_of(read_ros_map(file, execution, rules));
-    case WorldFormat::image:
-      return scene_of(read_maze_image(file, execution));
-    case WorldFormat::moveit:
-      return read_moveit_scene(file, execution);
-  }
-  return read_scene_text(file, execution);
+  const WorldFormat format = format_of(file);
+  if (format == WorldFormat::npy) return read_npy(file, execution);
+  if (format == WorldFormat::maze) return read_maze_file(file, execution);
+  if (format == WorldFormat::micromouse) return read_micromouse(file, execution);
+  if (format == WorldFormat::geojson) return read_geojson(file, execution);
+  if (format == WorldFormat::wkt) return read_wkt(file, execution);
+  if (format == WorldFormat::ring_list) return read_ring_list(file, execution);
+  if (format == WorldFormat::moving_ai) return scene_of(read_moving_ai_map(file, execution));
+  if (format == WorldFormat::ros_map) return scene_of(read_ros_map(file, execution, rules));
+  if (format == WorldFormat::image) return scene_of(read_maze_image(file, execution));
+  return format == WorldFormat::moveit ? read_moveit_scene(file, execution) : read_scene_text(file, execution);
 }
 
 }  // namespace

@@ -10,25 +10,20 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <numeric>
-#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 #include "core/base/error.hpp"
 #include "parallel/asked_memory.hpp"
-#include "scenes/files/geojson_io.hpp"
 #include "scenes/files/image_io.hpp"
+#include "scenes/files/plane_formats_io.hpp"
 #include "scenes/files/read_world_io.hpp"
-#include "scenes/files/ring_lists_io.hpp"
 #include "scenes/files/scene_io.hpp"
-#include "scenes/files/wkt_io.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
-#include "scenes/text/input_file_io.hpp"
 #include "scenes/text/output_file_io.hpp"
 #include "scenes/text/yaml_file_io.hpp"
 

@@ -87,6 +87,7 @@ class SceneReader {
     }
     first = fields.place().line;
     (this->*item_->read)(fields);
+    check_done(fields);
   }
 
   [[noreturn]] static void refuse_word(const Place& place, std::string_view name, std::string_view line) {
@@ -163,20 +164,10 @@ class SceneReader {
   void read_hold(Fields& fields) {
     if (arm().held.size() == most_named) fields.place().fail(fmt::format("at most {} joints are held", most_named));
     warren::read_hold(fields, arm());
-    check_done(fields);
   }
-  void read_allow(Fields& fields) {
-    warren::read_allow(fields, arm());
-    check_done(fields);
-  }
-  void read_tool(Fields& fields) {
-    arm().tool = word_of(fields);
-    check_done(fields);
-  }
-  void read_group(Fields& fields) {
-    arm().group = word_of(fields);
-    check_done(fields);
-  }
+  void read_allow(Fields& fields) { warren::read_allow(fields, arm()); }
+  void read_tool(Fields& fields) { arm().tool = word_of(fields); }
+  void read_group(Fields& fields) { arm().group = word_of(fields); }
   void read_bounds(Fields& fields) {
     const std::vector<double>& n = numbers(fields, 4, 4);
     if (!(n[0] < n[2])) refuse(fields.place(), fmt::format("XMIN must be less than XMAX = {}", n[2]), n[0]);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scenes/files/wkt_io.hpp"
-
+// Well-known text, in and out: POLYGON and MULTIPOLYGON are obstacles, LINESTRING and MULTILINESTRING walls, POINTs
+// mark nothing, GEOMETRYCOLLECTION holds any of them, EMPTY is nothing. Any number of geometries, apart by blanks,
+// lines or `;`; upper or lower case; `SRID=n;` and Z, M, ZM are understood and dropped. A polygon with holes becomes
+// several that touch (scenes/scene/plane_obstacles). Rings of either orientation, closed.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +13,7 @@
 
 #include "core/base/error.hpp"
 #include "parallel/asked_memory.hpp"
+#include "scenes/files/plane_formats_io.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "scenes/text/output_file_io.hpp"
 #include "scenes/text/scene_text.hpp"

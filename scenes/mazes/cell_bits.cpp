@@ -224,8 +224,6 @@ class CellBits::Reader : public CellWallReader {
   ~Reader() override {
     if (cells_.forget_ && first_row_ < last_row_) cells_.forget_(first_row_ * row_bytes_, last_row_ * row_bytes_);
   }
-  Reader(const Reader&) = delete;
-  Reader& operator=(const Reader&) = delete;
 
   void read(std::size_t number, CellTile& tile) override {
     cells_.place(number, tile);

@@ -9,12 +9,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
 #include <tuple>
-#include <vector>
 
 #include "core/base/error.hpp"
 #include "core/base/rng.hpp"

@@ -9,11 +9,13 @@
 #include <array>
 #include <cassert>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "core/base/enum_names.hpp"
 #include "core/base/raw_vector.hpp"
@@ -107,6 +109,32 @@ std::size_t maze_wall_bytes(std::uint32_t rows, std::uint32_t cols);
 
 /// Are these, to the bit, the walls that maze_walls() makes of the cells, not merged? Makes none.
 bool has_maze_walls(const WallSet& walls, const MazeCells& cells, const Execution& execution);
+
+/// The walls of a maze that nobody holds, in the order of maze_walls(), which is column by column: tiles are made for
+/// one column of tiles after the other, twice, since the walls must be counted before the first is written. Cost: twice
+/// the tiles. Memory: a byte a cell of a column of tiles, for merged walls two bytes for each row of each column of
+/// tiles, and some MiB of walls. Refers to the cells.
+class WallStrips {
+ public:
+  /// merged: as of maze_walls(). Counts the walls. Throws InputError for columns of tiles of 2^32 cells and more,
+  /// Stopped.
+  WallStrips(const CellWallSource& cells, bool merged, const Execution& execution);
+
+  std::uint64_t wall_count() const { return count_; }  ///< with the outline's four
+  bool holds_floats() const;                           ///< else doubles
+  /// The walls as they lie in memory, piece by piece. Throws Stopped, and what `take` throws.
+  void write(const std::function<void(std::string_view)>& take, const Execution& execution) const;
+
+ private:
+  /// By row, how far an upper wall goes on right of a strip.
+  std::vector<std::uint32_t> beyond(std::size_t strip) const;
+
+  const CellWallSource& cells_;
+  const bool merged_;
+  std::uint64_t count_ = 4;  // the outline's
+  /// By strip and row: cells that an upper wall at the strip's left end runs along in it.
+  std::vector<std::uint16_t> runs_;
+};
 
 /// Makes the scene one of a maze of this size: its hint, start (0.5, 1) and goal (cols + 0.5, rows).
 void set_maze(Scene& scene, MazeHint maze);

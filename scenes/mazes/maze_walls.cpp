@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scenes/mazes/maze_walls.hpp"
-
 #include <algorithm>
-#include <array>
-#include <span>
 #include <type_traits>
 
-#include "core/base/raw_vector.hpp"
 #include "parallel/chunks.hpp"
+#include "scenes/mazes/maze_generator.hpp"
 
 namespace warren {
 namespace {
@@ -127,12 +123,10 @@ class WallStarts {
 
 /// Collects the walls of one chunk and hands them on in blocks.
 template <class Wall>
-class WallWriter {
+class WallWriter : NotCopied {
  public:
   explicit WallWriter(Wall* out) : out_(out) {}
   ~WallWriter() { std::copy_n(block_.data(), used_, out_); }
-  WallWriter(const WallWriter&) = delete;
-  WallWriter& operator=(const WallWriter&) = delete;
 
   void make_room() {
     if (used_ + 2 <= block_.size()) return;

@@ -146,28 +146,18 @@ class SpanningTile {
   void cut_at_rim() {
     const std::size_t width = piece_.width;
     std::uint8_t* const least = least_.data() + width;
-    const auto clear = [&](std::size_t cell, unsigned bits) {
-      least[cell] = static_cast<std::uint8_t>(least[cell] & ~bits);
+    const auto cut = [&](unsigned side, std::size_t cell, bool has_inner, std::size_t inner) {
+      if ((piece_.more & side) == 0) return;
+      least[cell] = 0;
+      if (has_inner) least[inner] = static_cast<std::uint8_t>(least[inner] & ~side);
     };
     for (std::size_t row = 0; row < piece_.height; ++row) {
-      if ((piece_.more & 4U) != 0) {
-        clear(row * width, 15);
-        if (width > 1) clear(row * width + 1, 4);
-      }
-      if ((piece_.more & 1U) != 0) {
-        clear(row * width + width - 1, 15);
-        if (width > 1) clear(row * width + width - 2, 1);
-      }
+      cut(4, row * width, width > 1, row * width + 1);
+      cut(1, row * width + width - 1, width > 1, row * width + width - 2);
     }
     for (std::size_t col = 0; col < width; ++col) {
-      if ((piece_.more & 8U) != 0) {
-        clear(col, 15);
-        if (piece_.height > 1) clear(width + col, 8);
-      }
-      if ((piece_.more & 2U) != 0) {
-        clear(cells_ - width + col, 15);
-        if (piece_.height > 1) clear(cells_ - 2 * width + col, 2);
-      }
+      cut(8, col, piece_.height > 1, width + col);
+      cut(2, cells_ - width + col, piece_.height > 1, cells_ - 2 * width + col);
     }
   }
 
@@ -255,11 +245,7 @@ class SpanningTile {
     Count count{};
     for (std::size_t k = 0; k < candidate_count_; ++k) ++count[candidates_[k].weight >> shift & mask];
     std::uint32_t first = 0;
-    for (std::uint32_t& n : count) {
-      const std::uint32_t size = n;
-      n = first;
-      first += size;
-    }
+    for (std::uint32_t& n : count) first += std::exchange(n, first);
     for (std::size_t k = 0; k < candidate_count_; ++k)
       sorted_[count[candidates_[k].weight >> shift & mask]++] = candidates_[k];
     candidates_.swap(sorted_);

@@ -9,12 +9,10 @@
 #include <libqhull_r/qhull_ra.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <memory>
 #include <new>
 #include <optional>
-#include <vector>
 
 #include "core/base/error.hpp"
 #include "parallel/sort.hpp"
@@ -34,7 +32,7 @@ struct FoundHull {
 };
 
 /// One run of qhull, whose memory goes with it.
-class QhullRun {
+class QhullRun : NotCopied {
  public:
   /// Points, three numbers each, within [-1, 1].
   explicit QhullRun(std::vector<double>& points) : messages_(::fmemopen(nullptr, 4096, "w"), &std::fclose) {
@@ -51,8 +49,6 @@ class QhullRun {
     qh_freeqhull(&qhull_, !qh_ALL);
     qh_memfreeshort(&qhull_, &blocks, &bytes);
   }
-  QhullRun(const QhullRun&) = delete;
-  QhullRun& operator=(const QhullRun&) = delete;
 
   /// Nothing: there is none, as of flat points.
   std::optional<FoundHull> hull() {

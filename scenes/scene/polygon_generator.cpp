@@ -43,17 +43,12 @@ double angle_of(std::size_t i, std::size_t n, Dice& dice) {
   return turn * (static_cast<double>(i) + dice.from(0.0, 0.85)) / static_cast<double>(n);
 }
 
-Shape convex(std::size_t n, Dice& dice) {
-  Shape shape(n);
-  for (std::size_t i = 0; i < n; ++i) shape[i] = at_angle(angle_of(i, n, dice), 1.0);
-  return shape;
-}
-
-Shape star(std::size_t n, Dice& dice) {
+/// All corners as far from the middle, or each at a distance of its own.
+Shape star(std::size_t n, bool is_convex, Dice& dice) {
   Shape shape(n);
   for (std::size_t i = 0; i < n; ++i) {
     const double angle = angle_of(i, n, dice);
-    shape[i] = at_angle(angle, dice.from(0.35, 1.0));
+    shape[i] = at_angle(angle, is_convex ? 1.0 : dice.from(0.35, 1.0));
   }
   return shape;
 }
@@ -79,8 +74,7 @@ Shape crescent(std::size_t n, Dice& dice) {
 Shape shape_of(std::size_t n, Dice& dice) {
   constexpr std::size_t fewest_for_crescent = 11;
   const double kind = dice.from(0.0, 3.0);
-  if (kind < 1.0 || n == 3) return convex(n, dice);
-  if (kind < 2.0 || n < fewest_for_crescent) return star(n, dice);
+  if (kind < 2.0 || n < fewest_for_crescent) return star(n, kind < 1.0 || n == 3, dice);
   return crescent(n, dice);
 }
 

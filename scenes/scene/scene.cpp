@@ -13,17 +13,9 @@
 
 #include "core/base/rng.hpp"
 #include "parallel/chunks.hpp"
-#include "scenes/scene/arm_model.hpp"
 
 namespace warren {
 namespace {
-
-template <class Wall>
-std::uint64_t hash_of(std::span<const Wall> walls) {
-  WallFold fold;
-  for (const Wall& wall : walls) fold.add(wall.segment());
-  return fold.value(walls.size());
-}
 
 /// Folds numbers, and how many there are, into a hash.
 class Hasher {
@@ -41,7 +33,7 @@ class Hasher {
 Hasher hasher_of(const WallSet& set, const Execution& execution) {
   Hasher hasher(set.size());
   set.visit([&](auto walls) {
-    const auto hash_of_chunk = [&](Range r) { return hash_of(walls.subspan(r.first, r.size())); };
+    const auto hash_of_chunk = [&](Range r) { return WallsHash::of_chunk(walls.subspan(r.first, r.size())); };
     for (const std::uint64_t part : parts_of_chunks(walls.size(), WallsHash::grain, execution, hash_of_chunk))
       hasher.add(part);
   });
@@ -140,39 +132,18 @@ std::string urdf_words(const ArmFiles& files) {
 }  // namespace
 
 std::string robot_text(const RobotSpec& robot) {
-  switch (robot.kind) {
-    case RobotKind::point:
-      return "point";
-    case RobotKind::disc:
-      return fmt::format("disc {}", robot.radius + 0.0);
-    case RobotKind::car:
-      return car_words(robot);
-    case RobotKind::puma560:
-    case RobotKind::arm:
-      return arm_words(robot);
-    case RobotKind::urdf:
-      return urdf_words(*robot.files);
-    case RobotKind::polygon:
-      break;
-  }
-  return outline_words(robot);
+  if (robot.kind == RobotKind::point) return "point";
+  if (robot.kind == RobotKind::disc) return fmt::format("disc {}", robot.radius + 0.0);
+  if (robot.kind == RobotKind::polygon) return outline_words(robot);
+  if (robot.kind == RobotKind::car) return car_words(robot);
+  return robot.kind == RobotKind::urdf ? urdf_words(*robot.files) : arm_words(robot);
 }
 
 std::size_t state_size(const RobotSpec& robot) {
-  switch (robot.kind) {
-    case RobotKind::point:
-    case RobotKind::disc:
-      return 2;
-    case RobotKind::polygon:
-    case RobotKind::car:
-      return 3;
-    case RobotKind::puma560:
-    case RobotKind::arm:
-      return most_chain_joints;
-    case RobotKind::urdf:
-      return robot.files && robot.files->read ? robot.files->read->variables.size() : most_joints;
-  }
-  return 2;
+  if (robot.kind == RobotKind::point || robot.kind == RobotKind::disc) return 2;
+  if (robot.kind == RobotKind::polygon || robot.kind == RobotKind::car) return 3;
+  if (robot.kind != RobotKind::urdf) return most_chain_joints;
+  return robot.files && robot.files->read ? robot.files->read->variables.size() : most_joints;
 }
 
 RobotSpec with_what_is_said(RobotSpec robot, const Scene& scene) {
@@ -225,8 +196,6 @@ std::string scene_hash(const Scene& scene, const Execution& execution) {
   return hash_with(hasher_of(scene.walls, execution), scene);
 }
 
-std::uint64_t WallsHash::of_chunk(std::span<const FloatWall> walls) { return hash_of(walls); }
-std::uint64_t WallsHash::of_chunk(std::span<const DoubleWall> walls) { return hash_of(walls); }
 void WallsHash::add(std::uint64_t chunk) { state_ = folded_words(state_ ^ fold_secret_a, chunk ^ fold_secret_b); }
 std::string WallsHash::text() const { return hash_with(Hasher(state_), {}); }
 
@@ -280,8 +249,7 @@ Box obstacle_box(const Scene& scene, const Execution& execution) {
 
 std::vector<Segment> bounds_walls(const Scene& scene) {
   if (!scene.bounds) return {};
-  const auto [low, high] = *scene.bounds;
-  const Vec2 corners[] = {low, {high.x, low.y}, high, {low.x, high.y}};
+  const auto corners = scene.bounds->corners();
   return {{corners[0], corners[1]}, {corners[1], corners[2]}, {corners[2], corners[3]}, {corners[3], corners[0]}};
 }
 

@@ -187,6 +187,40 @@ inline bool is_unmade(const Scene& scene) { return (scene.formula || scene.packe
 /// Empty where the file has not been read.
 std::string unmade_hash(const Scene& scene);
 
+// The hash of walls that follow each other, wall by wall: a chunk of scene_hash()'s, also for whoever holds no walls.
+
+/// Two words in one: the halves of their product.
+inline std::uint64_t folded_words(std::uint64_t a, std::uint64_t b) {
+  __extension__ using Wide = unsigned __int128;
+  const Wide product = static_cast<Wide>(a) * b;
+  return static_cast<std::uint64_t>(product) ^ static_cast<std::uint64_t>(product >> 64);
+}
+/// The words of a double, where -0 is 0; never equal to a secret, which are no doubles of a sane size.
+inline std::uint64_t hashed_word(double x) { return std::bit_cast<std::uint64_t>(x + 0.0); }
+
+/// What the words of a wall are mixed with.
+inline constexpr std::uint64_t fold_secret_a = 0xa0761d6478bd642fU;
+/// The same for every other word.
+inline constexpr std::uint64_t fold_secret_b = 0xe7037ed1a0b428dbU;
+
+/// One chunk of walls.
+class WallFold {
+ public:
+  /// The next wall.
+  void add(const Segment& s) {
+    first_ = folded_words(hashed_word(s.a.x) ^ fold_secret_a, hashed_word(s.a.y) ^ first_);
+    second_ = folded_words(hashed_word(s.b.x) ^ fold_secret_b, hashed_word(s.b.y) ^ second_);
+  }
+  /// walls: how many were added.
+  std::uint64_t value(std::size_t walls) const {
+    return folded_words(first_ ^ fold_secret_b, second_ ^ fold_secret_a ^ walls);
+  }
+
+ private:
+  std::uint64_t first_ = fold_secret_a;
+  std::uint64_t second_ = fold_secret_b;
+};
+
 /// scene_hash() of walls alone that nobody holds: chunk after chunk of them.
 class WallsHash {
  public:
@@ -194,9 +228,12 @@ class WallsHash {
   /// walls: how many there are in all.
   explicit WallsHash(std::size_t walls) : state_(walls) {}
   /// Of `grain` walls that follow each other, the last ones fewer. Any number of threads may ask.
-  static std::uint64_t of_chunk(std::span<const FloatWall> walls);
-  /// As above.
-  static std::uint64_t of_chunk(std::span<const DoubleWall> walls);
+  template <class Wall>
+  static std::uint64_t of_chunk(std::span<const Wall> walls) {
+    WallFold fold;
+    for (const Wall& wall : walls) fold.add(wall.segment());
+    return fold.value(walls.size());
+  }
   /// Chunks in their order.
   void add(std::uint64_t chunk);
   /// After all chunks: as scene_hash().
@@ -237,40 +274,6 @@ inline std::string_view unit_of(const Scene& scene) {
 
 /// " m" behind lengths that are metres; nothing behind others, whose unit is that of all coordinates.
 inline std::string_view metres_behind(std::string_view unit) { return unit == "m" ? " m" : ""; }
-
-// The hash of walls that follow each other, wall by wall: a chunk of scene_hash()'s, also for whoever holds no walls.
-
-/// Two words in one: the halves of their product.
-inline std::uint64_t folded_words(std::uint64_t a, std::uint64_t b) {
-  __extension__ using Wide = unsigned __int128;
-  const Wide product = static_cast<Wide>(a) * b;
-  return static_cast<std::uint64_t>(product) ^ static_cast<std::uint64_t>(product >> 64);
-}
-/// The words of a double, where -0 is 0; never equal to a secret, which are no doubles of a sane size.
-inline std::uint64_t hashed_word(double x) { return std::bit_cast<std::uint64_t>(x + 0.0); }
-
-/// What the words of a wall are mixed with.
-inline constexpr std::uint64_t fold_secret_a = 0xa0761d6478bd642fU;
-/// The same for every other word.
-inline constexpr std::uint64_t fold_secret_b = 0xe7037ed1a0b428dbU;
-
-/// One chunk of walls.
-class WallFold {
- public:
-  /// The next wall.
-  void add(const Segment& s) {
-    first_ = folded_words(hashed_word(s.a.x) ^ fold_secret_a, hashed_word(s.a.y) ^ first_);
-    second_ = folded_words(hashed_word(s.b.x) ^ fold_secret_b, hashed_word(s.b.y) ^ second_);
-  }
-  /// walls: how many were added.
-  std::uint64_t value(std::size_t walls) const {
-    return folded_words(first_ ^ fold_secret_b, second_ ^ fold_secret_a ^ walls);
-  }
-
- private:
-  std::uint64_t first_ = fold_secret_a;
-  std::uint64_t second_ = fold_secret_b;
-};
 
 // A Denavit-Hartenberg table of a serial chain of revolute joints, as plain data: what planners and judges of arms have
 // in common. What it means is said in worlds/arms/serial_chain.hpp.

@@ -21,14 +21,12 @@ constexpr int poll_ms = 50;
 constexpr std::size_t least_mapped = std::size_t{16} << 20;
 
 /// A descriptor that is closed at the end, unless it is standard input.
-class Descriptor {
+class Descriptor : NotCopied {
  public:
   explicit Descriptor(int number) : number_(number) {}
   ~Descriptor() {
     if (number_ > STDIN_FILENO) ::close(number_);
   }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
   int number() const { return number_; }
 
  private:

@@ -25,15 +25,13 @@ inline std::string_view without_byte_order_mark(std::string_view text) {
   return text.substr(text.starts_with("\xef\xbb\xbf") ? 3 : 0);
 }
 
-class InputFile {
+class InputFile : NotCopied {
  public:
   /// Opens and maps or reads; "-" is standard input. Throws ReadError (also for directories), Stopped.
   InputFile(const std::string& path, const Execution& execution);
   /// Bytes that are in memory already, under the name that messages shall give: a copy.
   static InputFile of_bytes(std::string name, std::string_view bytes) { return {std::move(name), bytes, Held{}}; }
   ~InputFile();
-  InputFile(const InputFile&) = delete;
-  InputFile& operator=(const InputFile&) = delete;
 
   /// The path as given, or "standard input".
   const std::string& name() const { return name_; }

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -27,7 +28,13 @@ inline std::string json_of(std::same_as<bool> auto value) { return value ? "true
 inline std::string json_of(double value) { return json_number(value); }
 inline std::string json_of(std::uint64_t value) { return std::to_string(value); }
 inline std::string json_of(std::uint32_t value) { return std::to_string(value); }
+inline std::string json_of(std::int32_t value) { return std::to_string(value); }
 inline std::string json_of(std::string_view text) { return json_string(text); }
+/// null where there is none.
+template <class T>
+std::string json_of(const std::optional<T>& value) {
+  return value ? json_of(*value) : "null";
+}
 
 /// A list of what json_of_item(item) says of each.
 template <class Items, class JsonOfItem>
@@ -55,9 +62,11 @@ class JsonObject {
   void add_json(std::string_view name, std::string_view value) {
     text_.append(text_.size() > 1 ? between_ : "").append("\"").append(name).append("\"").append(colon_).append(value);
   }
-  template <class T>
-  void add(std::string_view name, const T& value) {
+  /// more: names and values in turns.
+  template <class T, class... More>
+  void add(std::string_view name, const T& value, const More&... more) {
     add_json(name, json_of(value));
+    if constexpr (sizeof...(more) > 0) add(more...);
   }
   /// null where there is none.
   template <class T>
@@ -74,6 +83,14 @@ class JsonObject {
   std::string colon_;
   std::string text_ = "{";
 };
+
+/// An object of names and values in turns.
+template <class... Members>
+std::string json_object(const Members&... members) {
+  JsonObject json;
+  json.add(members...);
+  return json.closed();
+}
 
 /// The bytes of a JSON text as its parser takes them, one by one: lines are counted, and every 64 KiB the deadline is
 /// looked at and the memory asked for that the parser may need before the next look, however long a word or a run of

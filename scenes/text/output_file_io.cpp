@@ -25,7 +25,7 @@ constexpr int pipe_poll_ms = 50;
 constexpr std::size_t block_bytes = std::size_t{1} << 20;  // a pause of a few milliseconds at most
 
 /// Holds SIGPIPE back in this thread while it lives; one that came meanwhile is swallowed.
-class WithoutSigpipe {
+class WithoutSigpipe : NotCopied {
  public:
   WithoutSigpipe() {
     ::sigemptyset(&pipe_);
@@ -43,8 +43,6 @@ class WithoutSigpipe {
     ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
     errno = error;
   }
-  WithoutSigpipe(const WithoutSigpipe&) = delete;
-  WithoutSigpipe& operator=(const WithoutSigpipe&) = delete;
 
  private:
   sigset_t pipe_{};

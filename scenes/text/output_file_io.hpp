@@ -13,14 +13,12 @@
 
 namespace warren {
 
-class OutputFile {
+class OutputFile : NotCopied {
  public:
   /// Throws WriteError if the place can't be written, Stopped while waiting for a pipe's reader.
   OutputFile(const std::string& path, const Execution& execution);
   /// Without commit(), a regular file is left as it was.
   ~OutputFile();
-  OutputFile(const OutputFile&) = delete;
-  OutputFile& operator=(const OutputFile&) = delete;
 
   /// Appends bytes; small pieces are collected. Throws WriteError (full disk, closed pipe), Stopped.
   void write(std::string_view bytes);
@@ -49,13 +47,11 @@ class OutputFile {
 
 /// Takes back the first of two files that belong together, if it was not there before and the second fails: half of
 /// them is none. Made before the first is written.
-class FirstOfTwoFiles {
+class FirstOfTwoFiles : NotCopied {
  public:
   explicit FirstOfTwoFiles(const std::string& path);
   /// Removes the file, unless there was one before or keep() was called.
   ~FirstOfTwoFiles();
-  FirstOfTwoFiles(const FirstOfTwoFiles&) = delete;
-  FirstOfTwoFiles& operator=(const FirstOfTwoFiles&) = delete;
   /// Both are in their places.
   void keep() { path_.clear(); }
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <istream>
 #include <sstream>
-#include <system_error>
 
 #include "core/base/error.hpp"
 

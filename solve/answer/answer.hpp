@@ -148,7 +148,7 @@ struct KeptRoute {
 /// What is left to say of a path whose points were handed on as they were made (core/base/solution.hpp).
 struct HandedPath {
   std::uint64_t points = 0;  ///< their number
-  std::string hash;          ///< solve/answer/path_hash.hpp
+  std::string hash;          ///< solve/answer/write_answer_io.hpp
 };
 
 /// A path and what is said of it that can be verified: an answer's own, or one that a file holds.

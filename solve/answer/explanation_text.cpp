@@ -135,15 +135,8 @@ void add_times(Lines& lines, const Answer& answer) {
 }
 
 std::string components_json(const ComponentFacts& facts) {
-  JsonObject json;
-  json.add("count", facts.count);
-  json.add("milestones", facts.milestones);
-  json.add("largest", facts.largest);
-  json.add("alone", facts.alone);
-  json.add("of_start", facts.of_start);
-  json.add("of_goal", facts.of_goal);
-  json.add("joined", facts.joined);
-  return json.closed();
+  return json_object("count", facts.count, "milestones", facts.milestones, "largest", facts.largest, "alone",
+                     facts.alone, "of_start", facts.of_start, "of_goal", facts.of_goal, "joined", facts.joined);
 }
 
 /// "--samples 800: why", or "warren build with --samples 800: why".
@@ -209,7 +202,93 @@ std::string heuristic_note(const Answer& answer) {
                      grouped(answer.counters.expanded), grouped(*expanded));
 }
 
+/// In the order of the work; of stages that are not here nothing is counted, and they come before "optimise".
+struct Link {
+  std::string_view key;
+  std::string_view label;
+  std::uint64_t (*count)(const Answer&) = nullptr;  ///< null: nothing is counted
+  std::string (*counted)(const Answer&) = nullptr;
+};
+
+constexpr std::array links{
+    Link{"index", "index of obstacles"},
+    Link{"sample", "samples drawn", [](const Answer& a) { return a.counters.samples; },
+         [](const Answer& a) { return fmt::format("samples, {} kept", grouped(a.counters.kept)); }},
+    Link{"neighbours", "index built", [](const Answer& a) { return a.counters.kept; },
+         [](const Answer&) { return std::string("milestones"); }},
+    Link{"queries", "neighbours asked", [](const Answer& a) { return a.counters.neighbour_queries; },
+         [](const Answer&) { return std::string("queries"); }},
+    Link{"checks", "edges checked", [](const Answer& a) { return a.counters.edges_checked; },
+         [](const Answer& a) { return fmt::format("edges, {} free", grouped(a.counters.edges_free)); }},
+    Link{"rows", "CSR rows", [](const Answer& a) { return a.roadmap.milestones; },
+         [](const Answer& a) {
+           return fmt::format("rows, {}", human_bytes(static_cast<double>(a.counters.row_bytes)));
+         }},
+    Link{"reduction", "reduction", [](const Answer& a) { return a.roadmap.milestones; },
+         [](const Answer&) { return std::string("vertices"); }},
+    Link{"components", "components", [](const Answer& a) { return a.roadmap.milestones; },
+         [](const Answer& a) { return "vertices, " + counted(a.roadmap.components, "component", "components"); }},
+    Link{"expansion", "queue and search", [](const Answer& a) { return a.counters.expanded; },
+         [](const Answer& a) {
+           return fmt::format("expanded, {} pushes, {} decreases", grouped(a.counters.pushes),
+                              grouped(a.counters.decreases));
+         }},
+    Link{"optimise", "pulled taut"},
+    Link{"verify", "verified", path_points, [](const Answer&) { return std::string("points"); }},
+    Link{"bound", "lower bound"},
+};
+constexpr std::size_t first_of_the_end = links.size() - 3;
+
+std::size_t place_of(std::string_view key) {
+  const auto at = std::ranges::find_if(links, [&](const Link& link) { return link.key == key; });
+  return static_cast<std::size_t>(at - links.begin());
+}
+
+bool is_sum(std::string_view key) {
+  constexpr std::array<std::string_view, 11> sums{"read",  "generate", "index",  "sample",   "neighbours", "connect",
+                                                  "graph", "reduce",   "search", "optimise", "verify"};
+  return std::ranges::find(sums, key) != sums.end();
+}
+
+/// In the order of the work, without what was counted.
+std::vector<StageLine> plain_lines(const std::vector<StageCost>& costs) {
+  std::vector<StageLine> lines;
+  for (const StageCost& cost : costs) {
+    lines.push_back({.key = cost.name, .label = cost.name, .wall_s = cost.wall_s, .cpu_s = cost.cpu_s, .counted = {}});
+    std::ranges::replace(lines.back().key, ' ', '_');
+  }
+  const auto rank = [](const StageLine& line) {
+    const std::size_t place = place_of(line.key);
+    return place == links.size() ? 2 * first_of_the_end - 1 : 2 * place;
+  };
+  std::ranges::stable_sort(lines, [&](const StageLine& a, const StageLine& b) { return rank(a) < rank(b); });
+  return lines;
+}
+
 }  // namespace
+
+std::vector<StageLine> stage_lines(const Answer& answer) {
+  std::vector<StageLine> lines = plain_lines(answer.costs);
+  for (StageLine& line : lines) {
+    const std::size_t place = place_of(line.key);
+    if (place == links.size()) continue;
+    const Link& link = links[place];
+    line.label = link.label;
+    if (link.count != nullptr) line.count = link.count(answer);
+    if (line.count > 0) line.counted = link.counted(answer);
+  }
+  return lines;
+}
+
+std::vector<std::pair<std::string, double>> keyed_seconds(const StageTimes& sums, const std::vector<StageCost>& costs) {
+  std::vector<std::pair<std::string, double>> keyed;
+  for (const auto& [name, seconds] : named_stages(sums)) keyed.emplace_back(name, seconds);
+  for (const StageLine& line : plain_lines(costs)) {
+    if (!is_sum(line.key)) keyed.emplace_back(line.key, line.wall_s);
+    keyed.emplace_back(line.key + "_cpu", line.cpu_s);
+  }
+  return keyed;
+}
 
 std::string text_of(const NarrowPlace& narrow) {
   const std::string text = fmt::format("{} of room on leg {}", human_number(narrow.clearance), grouped(narrow.leg + 1));
@@ -224,8 +303,7 @@ std::string narrowest_json(const std::optional<NarrowPlace>& narrow) {
   json.add_json("place", narrow->place
                              ? json_list(std::span<const double>(std::array{narrow->place->x, narrow->place->y}))
                              : "null");
-  json.add("clearance", narrow->clearance);
-  json.add_or_null("one_sample_in", narrow->one_sample_in.has_value(), narrow->one_sample_in.value_or(0.0));
+  json.add("clearance", narrow->clearance, "one_sample_in", narrow->one_sample_in);
   return json.closed();
 }
 
@@ -249,18 +327,11 @@ std::string explanation_text(const Answer& answer, const Palette& palette) {
 std::string explanation_json(const Answer& answer) {
   const Explanation& explained = *answer.explained;
   const Counters& c = answer.counters;
+  const std::uint64_t dropped = by_trees(answer) ? 0 : c.samples - c.kept;
   JsonObject json;
-  JsonObject samples;
-  samples.add("drawn", c.samples);
-  samples.add("kept", c.kept);
-  samples.add("dropped", by_trees(answer) ? std::uint64_t{0} : c.samples - c.kept);
-  json.add_json("samples", samples.closed());
-  JsonObject motions;
-  motions.add("checked", c.edges_checked);
-  motions.add("free", c.edges_free);
-  motions.add("blocked", blocked_edges(c));
-  motions.add("undecided", c.refused);
-  json.add_json("motions", motions.closed());
+  json.add_json("samples", json_object("drawn", c.samples, "kept", c.kept, "dropped", dropped));
+  json.add_json("motions", json_object("checked", c.edges_checked, "free", c.edges_free, "blocked", blocked_edges(c),
+                                       "undecided", c.refused));
   json.add_json("components", explained.components ? components_json(*explained.components) : "null");
   json.add_json("narrowest", narrowest_json(explained.narrowest));
   json.add_json("hints", json_list_of(explained.hints, ",", hint_json));

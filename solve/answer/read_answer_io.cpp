@@ -22,9 +22,6 @@ constexpr std::string_view point_expected =
     "[X, Y], two finite numbers (three for bodies that turn, one a joint for arms)";
 constexpr std::string_view path_expected = "a list of points [X, Y]";
 
-constexpr std::size_t longest_state = most_joints;
-constexpr bool is_state_size(std::size_t n) { return n >= 1 && n <= most_joints; }
-
 /// Takes the events of the parser. Keys that matter stand at depth 1 (the answer itself) and in "world"; all others are
 /// passed over at any depth.
 class AnswerReader {
@@ -114,7 +111,7 @@ class AnswerReader {
     if (in("start") && arrays_ == 0) answer_.problem.start = numbers_;
     if (in("goal") && arrays_ == 0) answer_.problem.goal = numbers_;
     if (in("goal_pose") && arrays_ == 0) take_pose();
-    if (in_state() && !is_state_size(numbers_.size())) refuse(point_expected);
+    if (in_state() && numbers_.empty()) refuse(point_expected);
     return true;
   }
   bool parse_error(std::size_t position, const std::string& token, const nlohmann::detail::exception&) {
@@ -171,7 +168,7 @@ class AnswerReader {
     } else if (objects_ == 2 && key_ == "price" && arrays_ == 0) {
       take_part(*answer_.price, inner_key_, value);
     } else if (objects_ == 2 && key_ == "goal_reached") {
-      if (inner_key_ == "asked" && arrays_ == 1 && answer_.goal_reached->asked.size() < longest_state) {
+      if (inner_key_ == "asked" && arrays_ == 1 && answer_.goal_reached->asked.size() < most_joints) {
         answer_.goal_reached->asked.push_back(value);
       }
       if (inner_key_ == "distance") answer_.goal_reached->distance = value;
@@ -222,7 +219,7 @@ class AnswerReader {
     if (in("goal_heading_rad")) answer_.problem.rule.heading_rad = value;
     if (in("goal_index") && arrays_ == 0 && value >= 0.0) answer_.goal_index = bounded_whole<std::uint64_t>(value);
     if (wanted && arrays_ > 0) {
-      if (numbers_.size() >= longest_state) refuse(in("path") ? path_expected : point_expected, "more numbers");
+      if (numbers_.size() >= most_joints) refuse(in("path") ? path_expected : point_expected, "more numbers");
       numbers_.push_back(value);
     }
     return true;
@@ -259,12 +256,11 @@ class AnswerReader {
            in("hole_size") || in("goal_tolerance") || in("goal_region") || in("goal_heading_rad");
   }
   void end_point() {
-    constexpr std::size_t batch = 1 << 14;
     const std::size_t width = answer_.path.empty() ? numbers_.size() : answer_.state_width();
-    if (!is_state_size(numbers_.size()) || numbers_.size() != width) {
+    if (numbers_.empty() || numbers_.size() != width) {
       refuse(path_expected, fmt::format("{} numbers in point {}", numbers_.size(), answer_.path.size()));
     }
-    if (answer_.path.size() % batch == 0) execution_.check();
+    execution_.poll(answer_.path.size());
     answer_.path.push_back({numbers_[0], numbers_.size() > 1 ? numbers_[1] : 0.0});
     if (width == 2) return;
     answer_.states.width = width;

@@ -15,22 +15,19 @@
 namespace warren {
 
 WorldAccount account_of(const Scene& scene, std::string hash) {
-  std::string unit{unit_of(scene)};
-  if (scene.map) return {scene.source, "map", 0, 0, std::move(hash), 0, 0, std::move(unit)};
+  WorldAccount world{
+      .source = scene.source, .kind = "map", .hash = std::move(hash), .unit = std::string(unit_of(scene))};
+  if (scene.map) return world;
   const bool plane = scene.walls.size() > 0 || !has_solids(scene);
-  const char* kind = scene.maze ? "maze" : !scene.polygons.empty() ? "polygons" : plane ? "walls" : "solids";
+  world.kind = scene.maze ? "maze" : !scene.polygons.empty() ? "polygons" : plane ? "walls" : "solids";
   const bool is_tree = is_unmade(scene) && scene.formula && scene.formula->loops == 0.0;
-  const std::size_t walls =
+  world.walls =
       is_tree ? 4 + (scene.maze->rows - std::size_t{1}) * (scene.maze->cols - std::size_t{1}) : scene.walls.size();
-  return {scene.source,
-          kind,
-          walls,
-          scene.polygons.size(),
-          std::move(hash),
-          scene.spheres.size(),
-          scene.boxes.size(),
-          std::move(unit),
-          scene.solids.size()};
+  world.polygons = scene.polygons.size();
+  world.spheres = scene.spheres.size();
+  world.boxes = scene.boxes.size();
+  world.solids = scene.solids.size();
+  return world;
 }
 
 std::string description_of(const Scene& scene) {
@@ -77,16 +74,13 @@ Fact box_fact(const char* name, const Box& box) {
           numbers_json({box.min.x, box.min.y, box.max.x, box.max.y})};
 }
 
-std::vector<Fact> map_facts(const Scene& scene, const WorldAccount& world, const Execution& execution) {
+void add_map_facts(const OccupancyMap& map, std::vector<Fact>& facts) {
   constexpr const char* formats[] = {"Moving AI map", "map server", "image"};
-  const OccupancyMap& map = *scene.map;
-  std::vector<Fact> facts{text_fact("source", world.source),
-                          text_fact("kind", world.kind),
-                          text_fact("format", formats[static_cast<std::size_t>(map.format)]),
-                          count_fact("width", map.width()),
-                          count_fact("height", map.height()),
-                          count_fact("free", map.free),
-                          count_fact("occupied", map.occupied)};
+  facts.push_back(text_fact("format", formats[static_cast<std::size_t>(map.format)]));
+  facts.push_back(count_fact("width", map.width()));
+  facts.push_back(count_fact("height", map.height()));
+  facts.push_back(count_fact("free", map.free));
+  facts.push_back(count_fact("occupied", map.occupied));
   if (map.format == MapFormat::ros) {
     facts.push_back(count_fact("unknown", map.unknown_count));
     facts.push_back(count_fact("between", map.between));
@@ -97,15 +91,10 @@ std::vector<Fact> map_facts(const Scene& scene, const WorldAccount& world, const
   }
   if (!map.water.empty()) facts.push_back(count_fact("water", map.water.count()));
   facts.push_back(number_fact("resolution", map.cell));
-  facts.push_back(box_fact("box", obstacle_box(scene, execution)));
-  facts.push_back(text_fact("hash", world.hash));
-  return facts;
 }
 
-std::vector<Fact> obstacle_facts(const Scene& scene, const WorldAccount& world, const Execution& execution) {
-  if (scene.map) return map_facts(scene, world, execution);
-  std::vector<Fact> facts{text_fact("source", world.source), text_fact("kind", world.kind),
-                          count_fact("walls", scene.walls.size())};
+void add_obstacle_facts(const Scene& scene, std::vector<Fact>& facts) {
+  facts.push_back(count_fact("walls", scene.walls.size()));
   const char* held = scene.walls.holds_packed() ? "packed" : scene.walls.holds_floats() ? "float" : "double";
   if (scene.walls.size() > 0) facts.push_back(text_fact("held as", held));
   if (!scene.polygons.empty()) {
@@ -117,10 +106,6 @@ std::vector<Fact> obstacle_facts(const Scene& scene, const WorldAccount& world, 
   if (!scene.spheres.empty()) facts.push_back(count_fact("spheres", scene.spheres.size()));
   if (!scene.boxes.empty()) facts.push_back(count_fact("boxes", scene.boxes.size()));
   if (!scene.solids.empty()) facts.push_back(count_fact("solids", scene.solids.size()));
-  if (const Box box = obstacle_box(scene, execution); !box.empty()) facts.push_back(box_fact("box", box));
-  if (scene.bounds) facts.push_back(box_fact("bounds", *scene.bounds));
-  facts.push_back(text_fact("hash", world.hash));
-  return facts;
 }
 
 /// How many there are of each; the whole lines in JSON.
@@ -162,8 +147,7 @@ Fact joint_fact(const ArmVariable& variable, std::size_t number) {
   JsonObject json;
   json.add("name", variable.name);
   json.add("type", variable.slides ? "prismatic" : variable.continuous ? "continuous" : "revolute");
-  json.add("low", variable.low);
-  json.add("high", variable.high);
+  json.add("low", variable.low, "high", variable.high);
   if (variable.speed > 0.0) json.add("speed", variable.speed);
   return {fmt::format("joint {}", number), std::move(text), json.closed()};
 }
@@ -171,7 +155,12 @@ Fact joint_fact(const ArmVariable& variable, std::size_t number) {
 }  // namespace
 
 std::vector<Fact> facts_of(const Scene& scene, const Execution& execution) {
-  std::vector<Fact> facts = obstacle_facts(scene, account_of(scene, execution), execution);
+  const WorldAccount world = account_of(scene, execution);
+  std::vector<Fact> facts{text_fact("source", world.source), text_fact("kind", world.kind)};
+  scene.map ? add_map_facts(*scene.map, facts) : add_obstacle_facts(scene, facts);
+  if (const Box box = obstacle_box(scene, execution); scene.map || !box.empty()) facts.push_back(box_fact("box", box));
+  if (scene.bounds && !scene.map) facts.push_back(box_fact("bounds", *scene.bounds));
+  facts.push_back(text_fact("hash", world.hash));
   add_problem_facts(scene, facts);
   return facts;
 }

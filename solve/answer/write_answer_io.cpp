@@ -5,19 +5,25 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <span>
-#include <type_traits>
 #include <variant>
 
 #include "scenes/scene/arm_model.hpp"
 #include "scenes/text/scene_text.hpp"
 #include "solve/answer/explanation_text.hpp"
-#include "solve/answer/path_hash.hpp"
-#include "solve/answer/stage_lines.hpp"
 
 namespace warren {
 namespace {
+
+constexpr std::uint64_t hash_factor = 0x100000001b3U;
+
+constexpr std::array<std::uint64_t, 7> powers_of_hash_factor() {
+  std::array<std::uint64_t, 7> powers{1};
+  for (std::size_t i = 1; i < powers.size(); ++i) powers[i] = powers[i - 1] * hash_factor;
+  return powers;
+}
 
 /// Nothing is said with null.
 void add_text(JsonObject& json, std::string_view key, const std::string& text) {
@@ -30,9 +36,7 @@ void add_state(JsonObject& json, std::string_view key, const std::vector<double>
 
 std::string world_json(const WorldAccount& world) {
   JsonObject json;
-  json.add("source", world.source);
-  json.add("kind", world.kind);
-  json.add("walls", world.walls);
+  json.add("source", world.source, "kind", world.kind, "walls", world.walls);
   if (world.polygons > 0) json.add("polygons", world.polygons);
   if (world.spheres > 0) json.add("spheres", world.spheres);
   if (world.boxes > 0) json.add("boxes", world.boxes);
@@ -42,48 +46,39 @@ std::string world_json(const WorldAccount& world) {
   return json.closed();
 }
 
-std::string json_of(const WrongEdge& wrong) {
-  JsonObject json;
-  json.add_json("edge", json_list(std::span<const std::uint32_t>(std::array{wrong.from, wrong.to})));
-  json.add("depth", wrong.depth);
-  return json.closed();
+std::string json_of(const std::vector<std::uint64_t>& numbers) { return json_list(std::span(numbers)); }
+std::string json_of(const std::vector<WrongEdge>& edges) {
+  return json_list_of(edges, ",", [](const WrongEdge& wrong) {
+    JsonObject json;
+    json.add_json("edge", json_list(std::span<const std::uint32_t>(std::array{wrong.from, wrong.to})));
+    json.add("depth", wrong.depth);
+    return json.closed();
+  });
 }
 
 std::string counters_json(const Counters& counters) {
   JsonObject json;
-  json.add("samples", counters.samples);
-  json.add("kept", counters.kept);
-  json.add("neighbour_queries", counters.neighbour_queries);
-  json.add("edges_checked", counters.edges_checked);
-  json.add("edges_free", counters.edges_free);
-  json.add("expanded", counters.expanded);
-  json.add("rounds", counters.rounds);
-  json.add("refused", counters.refused);
-  if (counters.pushes > 0) json.add("pushes", counters.pushes);
-  if (counters.pushes > 0) json.add("decreases", counters.decreases);
+  json.add("samples", counters.samples, "kept", counters.kept, "neighbour_queries", counters.neighbour_queries);
+  json.add("edges_checked", counters.edges_checked, "edges_free", counters.edges_free, "expanded", counters.expanded);
+  json.add("rounds", counters.rounds, "refused", counters.refused);
+  if (counters.pushes > 0) json.add("pushes", counters.pushes, "decreases", counters.decreases);
   if (counters.row_bytes > 0) json.add("row_bytes", counters.row_bytes);
   return json.closed();
 }
 
 std::string separation_json(const Separation& separation) {
   if (!separation.is_known()) return "null";
-  JsonObject json;
-  json.add("start_size", separation.start_size);
-  json.add("goal_size", separation.goal_size);
-  json.add("nearest_gap", separation.nearest_gap);
-  return json.closed();
+  return json_object("start_size", separation.start_size, "goal_size", separation.goal_size, "nearest_gap",
+                     separation.nearest_gap);
 }
 
 std::string blocked_json(const BlockedEnd& blocked) {
   JsonObject json;
-  json.add("end", blocked.is_start ? "start" : "goal");
-  json.add("by", blocked.by);
+  json.add("end", blocked.is_start ? "start" : "goal", "by", blocked.by);
   add_state(json, "free_place", blocked.free_place);
   json.add_or_null("distance", !blocked.free_place.empty(), blocked.distance);
   add_text(json, "hint", blocked.hint);
-  json.add("room", blocked.room);
-  json.add("needed", blocked.needed);
-  json.add_or_null("depth", blocked.depth.has_value(), blocked.depth.value_or(0.0));
+  json.add("room", blocked.room, "needed", blocked.needed, "depth", blocked.depth);
   return json.closed();
 }
 
@@ -100,9 +95,7 @@ std::string improvements_json(const Answer& answer) {
   const bool with_cost = tells_costs(answer);
   return json_list_of(answer.improvements, ", ", [&](const Improvement& improvement) {
     JsonObject json;
-    json.add("iterations", improvement.iterations);
-    json.add("seconds", improvement.seconds);
-    json.add("length", improvement.length);
+    json.add("iterations", improvement.iterations, "seconds", improvement.seconds, "length", improvement.length);
     if (with_cost) json.add("cost", improvement.cost);
     json.add("by", improvement.by);
     return json.closed();
@@ -110,13 +103,8 @@ std::string improvements_json(const Answer& answer) {
 }
 
 std::string price_json(const PriceParts& price) {
-  JsonObject json;
-  json.add("clearance", price.clearance);
-  json.add("areas", price.areas);
-  json.add("turning", price.turning);
-  json.add("cusps", price.cusps);
-  json.add("reverse", price.reverse);
-  return json.closed();
+  return json_object("clearance", price.clearance, "areas", price.areas, "turning", price.turning, "cusps", price.cusps,
+                     "reverse", price.reverse);
 }
 
 std::string list_json(const std::vector<std::vector<double>>& states) {
@@ -126,13 +114,8 @@ std::string list_json(const std::vector<std::vector<double>>& states) {
 std::string reached_json(const GoalReached& reached) {
   JsonObject json;
   add_state(json, "asked", reached.asked);
-  json.add("distance", reached.distance);
-  json.add_or_null("distance_bound", reached.distance_bound.has_value(), reached.distance_bound.value_or(0.0));
+  json.add("distance", reached.distance, "distance_bound", reached.distance_bound);
   return json.closed();
-}
-
-std::string class_json(const std::vector<std::int32_t>& passed) {
-  return json_list_of(passed, ", ", [](std::int32_t hole) { return std::to_string(hole); });
 }
 
 std::string holes_json(const std::vector<MapHole>& holes) {
@@ -149,7 +132,7 @@ std::string holes_json(const std::vector<MapHole>& holes) {
 void add_choices(JsonObject& json, const Answer& answer) {
   if (answer.goal_index) json.add("goal_index", *answer.goal_index);
   if (answer.goal_reached) json.add_json("goal_reached", reached_json(*answer.goal_reached));
-  if (answer.hole_size) json.add_json("class", class_json(answer.passed));
+  if (answer.hole_size) json.add_json("class", json_list(std::span(answer.passed), ", "));
   if (answer.hole_size) json.add("hole_size", *answer.hole_size);
   if (!answer.holes.empty()) json.add_json("holes", holes_json(answer.holes));
   if (!answer.order.empty()) json.add_json("order", json_list(std::span(answer.order)));
@@ -165,10 +148,8 @@ void add_quality(JsonObject& json, const Answer& answer) {
   if (const auto gap = gap_of(answer)) json.add("gap", *gap);
   if (!answer.bound_of.empty()) json.add("bound_of", answer.bound_of);
   add_choices(json, answer);
-  if (answer.keeping) {
-    json.add("kept", answer.keeping->kept);
-    json.add_or_null("kept_cost", answer.keeping->kept_cost.has_value(), answer.keeping->kept_cost.value_or(0.0));
-    json.add_or_null("new_cost", answer.keeping->new_cost.has_value(), answer.keeping->new_cost.value_or(0.0));
+  if (const auto& keeping = answer.keeping) {
+    json.add("kept", keeping->kept, "kept_cost", keeping->kept_cost, "new_cost", keeping->new_cost);
   }
   if (answer.turn_rad) json.add("turn_rad", *answer.turn_rad);
   if (!answer.iterations) return;
@@ -177,8 +158,7 @@ void add_quality(JsonObject& json, const Answer& answer) {
 }
 
 void add_outcome(JsonObject& json, const Answer& answer) {
-  json.add("schema", "warren.answer/1");
-  json.add("warren_version", WARREN_VERSION);
+  json.add("schema", "warren.answer/1", "warren_version", WARREN_VERSION);
   json.add("status", answer.refuted ? "refuted" : name_of(answer.outcome));
   if (answer.stop_reason) {
     json.add("stopped_by", name_of(*answer.stop_reason));
@@ -188,7 +168,7 @@ void add_outcome(JsonObject& json, const Answer& answer) {
   json.add("verified", answer.verified);
   json.add_or_null("length", answer.verified, answer.length);
   json.add_or_null("min_clearance", answer.verified, answer.min_clearance);
-  json.add_or_null("raw_length", answer.raw_length.has_value(), answer.raw_length.value_or(0.0));
+  json.add("raw_length", answer.raw_length);
   if (answer.blocked) json.add_json("blocked", blocked_json(*answer.blocked));
   add_quality(json, answer);
 }
@@ -245,8 +225,7 @@ void add_problem(JsonObject& json, const Answer& answer) {
   if (answer.problem.robot.files && answer.problem.robot.files->read) {
     add_arm(json, *answer.problem.robot.files->read, answer.problem.told);
   }
-  json.add("clearance", answer.problem.clearance);
-  json.add("contact", name_of(answer.problem.contact));
+  json.add("clearance", answer.problem.clearance, "contact", name_of(answer.problem.contact));
   add_text(json, "sampler", answer.sampler);
   json.add_json("world", world_json(answer.world));
 }
@@ -255,17 +234,14 @@ void add_work(JsonObject& json, const Answer& answer) {
   add_text(json, "planner", answer.planner);
   if (!answer.pipeline.empty()) json.add("pipeline", answer.pipeline);
   add_text(json, "search", answer.search);
-  json.add("seed", answer.seed);
-  json.add("threads", std::uint64_t{answer.threads});
+  json.add("seed", answer.seed, "threads", std::uint64_t{answer.threads});
   JsonObject options;
   for (const NamedFigure& option : answer.options) options.add_json(option.name, figure_json(option.value));
   json.add_json("options", options.closed());
   JsonObject roadmap;
-  roadmap.add("milestones", answer.roadmap.milestones);
-  roadmap.add("edges", answer.roadmap.edges);
-  roadmap.add("components", answer.roadmap.components);
-  if (answer.cells) roadmap.add("cells", answer.cells->cells);
-  if (answer.cells) roadmap.add("adjacencies", answer.cells->adjacencies);
+  const RoadmapSize& size = answer.roadmap;
+  roadmap.add("milestones", size.milestones, "edges", size.edges, "components", size.components);
+  if (answer.cells) roadmap.add("cells", answer.cells->cells, "adjacencies", answer.cells->adjacencies);
   json.add_json("roadmap", roadmap.closed());
   for (const auto* figures : {&answer.figures, &answer.path_figures}) {
     for (const NamedFigure& figure : *figures) json.add_json(figure.name, figure_json(figure.value));
@@ -278,8 +254,7 @@ void add_work(JsonObject& json, const Answer& answer) {
   JsonObject stages;
   for (const auto& [key, seconds] : keyed_seconds(answer.seconds, answer.costs)) stages.add(key, seconds);
   json.add_json("stages_s", stages.closed());
-  json.add("solve_s", answer.solve_s);
-  json.add("peak_memory_bytes", std::uint64_t{answer.peak_memory_bytes});
+  json.add("solve_s", answer.solve_s, "peak_memory_bytes", std::uint64_t{answer.peak_memory_bytes});
 }
 
 /// All but the path.
@@ -318,15 +293,42 @@ void write_states(const Path<Vec2>& path, const StateList& states, const Executi
 
 void append_alternative(std::string& text, const AlternativePath& other) {
   JsonObject json;
-  json.add("cost", other.cost);
-  json.add("length", other.length);
+  json.add("cost", other.cost, "length", other.length);
   json.add_json("price", price_json(other.price));
-  json.add_json("class", class_json(other.passed));
+  json.add_json("class", json_list(std::span(other.passed), ", "));
   json.add("min_clearance", other.min_clearance);
   text += json.open() + ", \"path\": ";
 }
 
 }  // namespace
+
+/// A byte of zeros changes nothing but for the factor, and coordinates of cells begin with five, most of them: then no
+/// branch depends on the number. Each byte waits for the one before it, so every multiplication that is left out
+/// counts.
+void PathHash::add(double number) {
+  constexpr std::size_t most_zeros = 5;
+  constexpr auto powers = powers_of_hash_factor();
+  const auto bits = std::bit_cast<std::uint64_t>(number);
+  std::size_t byte = std::min<std::size_t>(most_zeros, static_cast<unsigned>(std::countr_zero(bits)) / 8);
+  last_ = last_ * powers[byte + 1] ^ (bits >> 8 * byte & 0xffU);
+  while (++byte < 8) last_ = last_ * hash_factor ^ (bits >> 8 * byte & 0xffU);
+}
+
+std::string PathHash::text() const { return fmt::format("{:016x}", last_ * hash_factor); }
+
+std::string path_hash(const Answer& answer, const Execution& execution) {
+  PathHash hash;
+  for (std::size_t i = 0; i < answer.state_count(); ++i) {
+    execution.poll(i);
+    if (answer.states.empty()) {
+      hash.add(answer.path[i].x);
+      hash.add(answer.path[i].y);
+    } else {
+      for (std::size_t k = 0; k < answer.states.width; ++k) hash.add(answer.states[i][k]);
+    }
+  }
+  return hash.text();
+}
 
 std::string violation_json(const Violation& violation) {
   return fmt::format(R"({{"leg": {}, "distance": {}, "obstacle": {}}})", violation.leg, json_number(violation.distance),
@@ -352,17 +354,7 @@ std::vector<std::pair<const char*, double>> named_stages(const StageTimes& s) {
 }
 
 std::string figure_json(const Figure& figure) {
-  const auto text_of = [](const auto& value) {
-    using Value = std::decay_t<decltype(value)>;
-    if constexpr (std::is_same_v<Value, std::vector<WrongEdge>>) {
-      return json_list_of(value, ",", [](const WrongEdge& wrong) { return json_of(wrong); });
-    } else if constexpr (std::is_same_v<Value, std::vector<std::uint64_t>>) {
-      return json_list(std::span(value));
-    } else {
-      return json_of(value);
-    }
-  };
-  return std::visit(text_of, figure);
+  return std::visit([](const auto& value) { return json_of(value); }, figure);
 }
 
 void write_answer_json(const Answer& answer, const Execution& execution,

@@ -4,6 +4,7 @@
 // peak_memory_bytes.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -22,5 +23,22 @@ void write_answer_json(const Answer& answer, const Execution& execution,
 std::string violation_json(const Violation& violation);
 /// As JSON text.
 std::string figure_json(const Figure& figure);
+
+/// A hash that tells two paths apart without their points: FNV-1a of 64 bits over numbers in their order, each as the
+/// eight bytes of a double from low to high.
+class PathHash {
+ public:
+  /// Behind those that were added.
+  void add(double number);
+  /// As 16 hex digits.
+  std::string text() const;
+
+ private:
+  // The hash but for its last factor, by which the next number begins: that of nothing is 0xcbf29ce484222325.
+  std::uint64_t last_ = 0x1d10331a6b696bc7U;
+};
+
+/// Of the numbers of the answer's states, or points. Throws Stopped.
+std::string path_hash(const Answer& answer, const Execution& execution);
 
 }  // namespace warren

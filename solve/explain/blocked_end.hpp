@@ -24,15 +24,8 @@ namespace warren {
 void explain_blocked_end(const Scene& scene, Answer& answer, const Execution& execution,
                          const OccupancyMap* own = nullptr);
 
-/// The same of an arm (blocked_arm.cpp): the limit, solid or link in the way by the judge's word, how deep a link
-/// stands in it, and a free posture nearby; of a place of the tool, a place nearby that some posture reaches. Some ten
-/// thousand postures, each judged by itself. Throws Stopped.
-void explain_blocked_arm(const Scene& scene, Answer& answer, const Execution& execution);
 /// How far the straight segment from a to b must go to be out of a closed box; 0 or less: it is.
 double depth_in_box(const Vec3& a, const Vec3& b, const SolidBox& box);
-
-/// The 17 of "wall 17: ...", what a judge calls an obstacle, after the word "wall ".
-std::optional<std::size_t> number_after(std::string_view name, std::string_view word);
 
 /// What the judge meets at a place, with the margin of ends; nothing where the body fits.
 using MetAt = std::function<std::optional<Violation>(Vec2)>;

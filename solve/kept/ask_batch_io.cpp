@@ -43,13 +43,6 @@ using Json = nlohmann::json;
 constexpr std::size_t longest_line = std::size_t{1} << 16;
 constexpr double empty_field = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array<std::string_view, 3> plane_axes{"x", "y", "theta"};
-constexpr std::array<std::string_view, most_joints> joint_axes{"1", "2", "3",  "4",  "5",  "6",  "7",
-                                                               "8", "9", "10", "11", "12", "13", "14"};
-
-std::span<const std::string_view> axes_of(unsigned dimension) {
-  if (dimension > plane_axes.size()) return std::span(joint_axes).first(dimension);
-  return std::span(plane_axes).first(dimension);
-}
 
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view blanks = " \t\r";
@@ -115,15 +108,13 @@ class BatchQuestions {
   /// Throws InputError for a CSV whose header names other columns, or lacks one without which no line can be asked;
   /// Stopped.
   BatchQuestions(const InputFile& file, BatchLines kind, const Roadmap& roadmap, const Execution& execution)
-      : lines_(file, execution),
-        kind_(kind),
-        scene_(roadmap.world.outline()),
-        axes_(axes_of(roadmap.arrays.dimension)) {
+      : lines_(file, execution), kind_(kind), scene_(roadmap.world.outline()), width_(roadmap.arrays.dimension) {
     for (const bool is_goal : {false, true}) {
       if (kind != BatchLines::questions && is_goal != (kind == BatchLines::goals)) continue;
       const std::string_view prefix = kind != BatchLines::questions ? "" : is_goal ? "goal_" : "start_";
-      for (std::size_t i = 0; i < axes_.size(); ++i) {
-        known_.push_back({is_goal, i, fmt::format("{}{}", prefix, axes_[i])});
+      for (std::size_t i = 0; i < width_; ++i) {
+        const std::string axis = width_ > plane_axes.size() ? std::to_string(i + 1) : std::string(plane_axes[i]);
+        known_.push_back({is_goal, i, fmt::format("{}{}", prefix, axis)});
       }
     }
     std::string_view line;
@@ -178,7 +169,7 @@ class BatchQuestions {
     for (const Column& column : known_) {
       const bool any = std::ranges::count(columns_, column.is_goal, &Column::is_goal) > 0;
       const bool has_own = !(column.is_goal ? scene_.goal : scene_.start).empty();
-      const bool is_heading_of_goal = column.is_goal && axes_[column.place] == plane_axes.back();
+      const bool is_heading_of_goal = column.is_goal && width_ == plane_axes.size() && column.place + 1 == width_;
       if ((!any && has_own) || is_heading_of_goal) continue;
       if (std::ranges::find(columns_, column.name, &Column::name) != columns_.end()) continue;
       const std::string_view why = any              ? ""
@@ -242,19 +233,19 @@ class BatchQuestions {
   }
   /// A goal may have no heading, or be a place of an arm's tool.
   void check_place(const std::vector<double>& place) const {
-    const bool any_heading = axes_.size() == 3 && place.size() == 2;
-    const bool of_the_tool = axes_.size() > plane_axes.size() && place.size() == 3;
-    if (place.size() == axes_.size() || (kind_ == BatchLines::goals && (any_heading || of_the_tool))) return;
-    throw InputError("state", fmt::format("expected {} numbers (found: {})", axes_.size(), place.size()));
+    const bool any_heading = width_ == 3 && place.size() == 2;
+    const bool of_the_tool = width_ > plane_axes.size() && place.size() == 3;
+    if (place.size() == width_ || (kind_ == BatchLines::goals && (any_heading || of_the_tool))) return;
+    throw InputError("state", fmt::format("expected {} numbers (found: {})", width_, place.size()));
   }
 
   TextLines lines_;
   bool is_at_line_ = false;  // the line is still to be read
   BatchLines kind_;
   const Scene& scene_;
-  std::span<const std::string_view> axes_;  // names of a state's numbers
-  std::vector<Column> known_;               // all that a header may have
-  std::vector<Column> columns_;             // empty: JSON lines
+  std::size_t width_;            // numbers of a state
+  std::vector<Column> known_;    // all that a header may have
+  std::vector<Column> columns_;  // empty: JSON lines
   std::uint64_t count_ = 0;
 };
 
@@ -283,66 +274,55 @@ struct AnsweredChunk {
   std::uint64_t wrong = 0;
 };
 
-class Batch {
- public:
-  Batch(const RoadmapQuery& query, const BatchOptions& options, const Execution& execution)
-      : query_(query), options_(options), one_thread_(execution.quiet()) {
-    one_thread_.threads = 1;
+/// whole: nullptr where lengths alone are asked.
+void add_line(const BatchOptions& options, const BatchQuestion& question, Outcome outcome, std::optional<double> length,
+              const Answer* whole, AnsweredChunk& chunk) {
+  chunk.solved += outcome == Outcome::solved ? 1 : 0;
+  if (options.csv) {
+    chunk.text.append(question.csv_id()).append(",").append(name_of(outcome)).append(",");
+    if (length) append_json_number(chunk.text, *length);
+    if (whole != nullptr) chunk.text += whole->verified ? ",true" : ",false";
+  } else {
+    JsonObject object;
+    object.add_json("id", question.json_id());
+    object.add("status", name_of(outcome), "length", length);
+    if (whole != nullptr) object.add("verified", whole->verified);
+    if (whole != nullptr) object.add_json("path", path_json(*whole));
+    chunk.text += object.closed();
   }
+  chunk.text += '\n';
+}
 
-  void answer(const BatchQuestion& question, QuestionScratch& scratch, AnsweredChunk& chunk) const {
-    std::string error = question.error;
-    if (error.empty()) {
-      try {
-        one_thread_.check();
-        if (options_.lengths_only) {
-          const auto [outcome, length] =
-              query_.length_within(question.start, question.goal, options_.how, one_thread_, scratch);
-          return add_line(question, outcome, outcome == Outcome::solved ? std::optional(length) : std::nullopt, nullptr,
-                          chunk);
-        }
-        const Answer answer = query_.ask_within(question.start, question.goal, options_.how, one_thread_, scratch);
-        if (answer.outcome == Outcome::stopped) throw Stopped(answer.stop_reason.value_or(StopReason::time));
-        return add_line(question, answer.outcome, answer.verified ? std::optional(answer.length) : std::nullopt,
-                        &answer, chunk);
-      } catch (const UsageError& wrong) {
-        error = wrong.what();
+void add_answer(const RoadmapQuery& query, const BatchOptions& options, const BatchQuestion& question,
+                const Execution& one_thread, QuestionScratch& scratch, AnsweredChunk& chunk) {
+  std::string error = question.error;
+  if (error.empty()) {
+    try {
+      one_thread.check();
+      if (options.lengths_only) {
+        const auto [outcome, length] =
+            query.length_within(question.start, question.goal, options.how, one_thread, scratch);
+        return add_line(options, question, outcome, outcome == Outcome::solved ? std::optional(length) : std::nullopt,
+                        nullptr, chunk);
       }
+      const Answer answer = query.ask_within(question.start, question.goal, options.how, one_thread, scratch);
+      if (answer.outcome == Outcome::stopped) throw Stopped(answer.stop_reason.value_or(StopReason::time));
+      return add_line(options, question, answer.outcome, answer.verified ? std::optional(answer.length) : std::nullopt,
+                      &answer, chunk);
+    } catch (const UsageError& wrong) {
+      error = wrong.what();
     }
-    ++chunk.wrong;
-    chunk.text += options_.csv ? question.csv_id() + (options_.lengths_only ? ",error,\n" : ",error,,\n")
-                               : "{\"id\":" + question.json_id() + ",\"error\":" + json_string(error) + "}\n";
   }
-  std::string header() const {
-    if (!options_.csv) return {};
-    return options_.lengths_only ? "id,status,length\n" : "id,status,length,verified\n";
-  }
+  ++chunk.wrong;
+  chunk.text += options.csv ? question.csv_id() + (options.lengths_only ? ",error,\n" : ",error,,\n")
+                            : "{\"id\":" + question.json_id() + ",\"error\":" + json_string(error) + "}\n";
+}
 
- private:
-  /// whole: nullptr where lengths alone are asked.
-  void add_line(const BatchQuestion& question, Outcome outcome, std::optional<double> length, const Answer* whole,
-                AnsweredChunk& chunk) const {
-    chunk.solved += outcome == Outcome::solved ? 1 : 0;
-    if (options_.csv) {
-      chunk.text.append(question.csv_id()).append(",").append(name_of(outcome)).append(",");
-      if (length) append_json_number(chunk.text, *length);
-      if (whole != nullptr) chunk.text += whole->verified ? ",true" : ",false";
-    } else {
-      JsonObject object;
-      object.add_json("id", question.json_id());
-      object.add("status", name_of(outcome));
-      object.add_or_null("length", length.has_value(), length.value_or(0.0));
-      if (whole != nullptr) object.add("verified", whole->verified);
-      if (whole != nullptr) object.add_json("path", path_json(*whole));
-      chunk.text += object.closed();
-    }
-    chunk.text += '\n';
-  }
-
-  const RoadmapQuery& query_;
-  const BatchOptions& options_;
-  Execution one_thread_;
-};
+Execution on_one_thread(const Execution& execution) {
+  Execution one_thread = execution.quiet();
+  one_thread.threads = 1;
+  return one_thread;
+}
 
 // Pairs whose lengths are held at once, where a line has fewer.
 constexpr std::size_t pairs_at_once = std::size_t{1} << 14;
@@ -399,8 +379,7 @@ class Matrix {
       for (const BatchQuestion& goal : goals_) query_.expect(goal.start, execution_);
     }
     entries_.resize(pairs);
-    Execution one_thread = execution_.quiet();
-    one_thread.threads = 1;
+    const Execution one_thread = on_one_thread(execution_);
     const std::size_t share = std::max<std::size_t>(1, (pairs + scratch_.size() - 1) / scratch_.size());
     for_chunks(pairs, share, execution_, [&](Range r) {
       for (std::size_t i = r.first; i < r.last; ++i) {
@@ -478,9 +457,9 @@ class Matrix {
 BatchAccount ask_batch(const RoadmapQuery& query, const InputFile& questions, const BatchOptions& options,
                        const Execution& execution, const std::function<void(std::string_view)>& write) {
   BatchQuestions reader(questions, BatchLines::questions, query.roadmap(), execution);
-  const Batch batch(query, options, execution);
+  const Execution one_thread = on_one_thread(execution);
   BatchAccount account;
-  write(batch.header());
+  write(!options.csv ? "" : options.lengths_only ? "id,status,length\n" : "id,status,length,verified\n");
   if (!options.lengths_only) query.prepare_paths(execution);
   std::vector<BatchQuestion> some;
   std::vector<QuestionScratch> scratch(thread_count(execution.threads));
@@ -494,7 +473,9 @@ BatchAccount ask_batch(const RoadmapQuery& query, const InputFile& questions, co
     std::vector<AnsweredChunk> chunks(chunk_count(some.size(), share));
     for_chunks(some.size(), share, execution, [&](Range r) {
       const std::size_t chunk = r.first / share;
-      for (std::size_t i = r.first; i < r.last; ++i) batch.answer(some[i], scratch[chunk], chunks[chunk]);
+      for (std::size_t i = r.first; i < r.last; ++i) {
+        add_answer(query, options, some[i], one_thread, scratch[chunk], chunks[chunk]);
+      }
     });
     for (const AnsweredChunk& chunk : chunks) {
       write(chunk.text);

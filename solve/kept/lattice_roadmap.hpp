@@ -21,12 +21,13 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/raw_vector.hpp"
 #include "core/base/types.hpp"
 #include "core/run/execution.hpp"
 #include "parallel/once.hpp"
+#include "planners/lengths/lattice_passages.hpp"
 #include "planners/lengths/route_index.hpp"
 #include "scenes/scene/scene.hpp"
-#include "solve/kept/roadmap_file.hpp"
 #include "solve/question/question.hpp"
 #include "solve/question/solve_options.hpp"
 #include "verify/streamed/looked_up_walls.hpp"
@@ -52,12 +53,8 @@ struct KeptCells {
 inline bool is_nothing_but_maze(const Scene& scene) {
   return scene.maze && !scene.bounds && scene.polygons.empty() && !scene.map && !has_solids(scene);
 }
-/// Is the world inside a maze whose walls stand wherever its lattice has no passage, and nothing else?
-inline bool walls_are_passages(const RoadmapFile& file, const Scene& outline) {
-  return is_nothing_but_maze(outline) && file.find("maze.walls") == nullptr && file.find("world.walls") == nullptr;
-}
-/// Of the words of a lattice, of such a file or in memory, which must outlive it; `where` names them. Throws InputError
-/// for a world of another hash, Stopped.
+/// Of the words of a lattice, which must outlive it, where walls stand wherever it has no passage; `where` names them.
+/// Throws InputError for a world of another hash, Stopped.
 std::unique_ptr<KeptCells> cells_of_words(const std::string& where, MazeHint maze, std::span<const std::uint64_t> right,
                                           std::span<const std::uint64_t> up, const std::string& hash,
                                           const Execution& execution);
@@ -163,6 +160,29 @@ constexpr auto enum_names(IndexChoice) { return std::array<std::string_view, 2>{
 
 /// Lattices below are searched in less time than a person notices, and their roadmap is one that all can read.
 inline constexpr std::uint64_t fewest_indexed_cells = 65'536;
+
+// The walls of a maze in two bits a cell instead of 16 bytes a wall, where they are those that a maze has: unit walls
+// in the course's order (scenes/mazes/maze_generator.hpp). Cells column by column, from the lowest row up; of cell i,
+// bits 2 (i mod 32) and the next of word i / 32: its right wall stands, its upper one does.
+
+/// Nothing where the scene's walls are others, or in another order. Throws Stopped.
+std::optional<RawVector<std::uint64_t>> maze_bits(const Scene& scene, const Execution& execution);
+
+/// What wall_passages() gives, three times as fast, where the scene is nothing but walls on its maze's grid inside
+/// their outline and the reach leaves the middles of cells alone: a motion is free unless a wall stands across it, for
+/// no other comes nearer than a half. Nothing elsewhere. Throws Stopped.
+std::optional<LatticePassages> passages_of_maze(const Scene& scene, double reach, const Execution& execution);
+
+/// Are the scene's walls, to the bit, those of a maze where a wall stands wherever the lattice has no passage? Throws
+/// Stopped.
+bool has_walls_of(const LatticePassages& lattice, const Scene& scene, const Execution& execution);
+
+/// The walls of that maze. Throws Stopped.
+WallSet walls_of_lattice(const LatticePassages& lattice, const Execution& execution);
+
+/// The walls again, to the bit. Throws InputError naming `where` for another number of words, Stopped.
+WallSet walls_of_maze_bits(const std::string& where, MazeHint maze, std::span<const std::uint64_t> bits,
+                           const Execution& execution);
 
 /// The index of a maze whose lattice is the roadmap, where that is to be had: nullptr for other worlds and options, for
 /// small lattices, and where the index doesn't pay. Throws InputError, Stopped.

@@ -6,17 +6,18 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <iterator>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "core/plane/geometry.hpp"
+#include "core/plane/polygon.hpp"
 #include "parallel/sort.hpp"
 #include "scenes/text/scene_text.hpp"
-#include "solve/kept/maze_bits.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 #include "solve/kinds/question_of_pose.hpp"
-#include "solve/kinds/sampled_roadmap.hpp"
 #include "solve/question/question_of_arm.hpp"
 
 namespace warren {
@@ -52,10 +53,9 @@ Question without_ends(const Scene& scene, Question question) {
 
 EdgeCounts edges_of(const LatticePassages& passages, const Execution& execution) {
   const auto bits_in = [&](std::span<const std::uint64_t> words) {
-    constexpr std::size_t polled = std::size_t{1} << 16;
     std::uint64_t bits = 0;
     for (std::size_t i = 0; i < words.size(); ++i) {
-      if (i % polled == 0) execution.check();
+      execution.poll(i);
       bits += static_cast<std::uint64_t>(std::popcount(words[i]));
     }
     return bits;
@@ -70,11 +70,10 @@ EdgeCounts edges_of(const LatticePassages& passages, const Execution& execution)
 using StateKey = std::array<double, most_joints>;
 
 std::vector<StateKey> sorted_states(const RoadmapParts& parts, const Execution& execution) {
-  constexpr std::size_t polled = std::size_t{1} << 16;
   execution.reserve(parts.vertex_count() * sizeof(StateKey));
   std::vector<StateKey> states(parts.vertex_count(), StateKey{});
   for (VertexId v = 0; v < states.size(); ++v) {
-    if (v % polled == 0) execution.check();
+    execution.poll(v);
     std::ranges::copy(parts.state(v), states[v].begin());
   }
   polled_sort(states.begin(), states.end(), execution);
@@ -84,14 +83,13 @@ std::vector<StateKey> sorted_states(const RoadmapParts& parts, const Execution& 
 /// How many states only one of the two has.
 void compare_states(const RoadmapParts& before, const RoadmapParts& now, const Execution& execution,
                     UpdateAccount& account) {
-  constexpr std::size_t polled = std::size_t{1} << 16;
   const std::vector<StateKey> old_states = sorted_states(before, execution);
   const std::vector<StateKey> new_states = sorted_states(now, execution);
   std::size_t i = 0;
   std::size_t k = 0;
   std::uint64_t both = 0;
   for (std::size_t steps = 0; i < old_states.size() && k < new_states.size(); ++steps) {
-    if (steps % polled == 0) execution.check();
+    execution.poll(steps);
     if (old_states[i] == new_states[k]) {
       ++both, ++i, ++k;
     } else {
@@ -112,6 +110,85 @@ void compare_lattices(const Roadmap& before, const Roadmap& now, UpdateAccount& 
   }
   account.states_added = count_states(now) - both;
   account.states_dropped = count_states(before) - both;
+}
+
+/// More differences than so many are no change but another world.
+constexpr std::size_t most_changed_places = 4096;
+
+bool same_box(const std::optional<Box>& a, const std::optional<Box>& b) {
+  return a.has_value() == b.has_value() && (!a || (a->min == b->min && a->max == b->max));
+}
+
+/// False where the maps' cells are not the same places, or too many differ.
+bool add_changed_cells(const OccupancyMap& a, const OccupancyMap& b, std::vector<Box>& places) {
+  const bool same_place = a.width() == b.width() && a.height() == b.height() && a.cell == b.cell &&
+                          a.origin == b.origin && a.yaw_rad == b.yaw_rad;
+  if (!same_place || !a.water.empty() || !b.water.empty()) return false;
+  for (std::uint32_t y = 0; y < a.height(); ++y) {
+    if (std::equal(a.blocked.row(y).begin(), a.blocked.row(y).end(), b.blocked.row(y).begin())) continue;
+    for (std::uint32_t x = 0; x < a.width(); ++x) {
+      if (a.blocked.test(x, y) == b.blocked.test(x, y)) continue;
+      places.push_back(world_box(a, {{1.0 * x, 1.0 * y}, {x + 1.0, y + 1.0}}));
+      if (places.size() > most_changed_places) return false;
+    }
+  }
+  return true;
+}
+
+std::vector<Segment> walls_of(const Scene& scene, const Execution& execution) {
+  execution.reserve(scene.walls.size() * sizeof(Segment));
+  std::vector<Segment> walls;
+  walls.reserve(scene.walls.size());
+  scene.walls.visit([&](auto all) {
+    for (const auto& wall : all) walls.push_back(wall.segment());
+  });
+  return walls;
+}
+
+std::vector<std::vector<Vec2>> outlines_of(const Scene& scene) {
+  std::vector<std::vector<Vec2>> outlines;
+  for (const ScenePolygon& polygon : scene.polygons) outlines.push_back(polygon.corners);
+  return outlines;
+}
+
+bool comes_before(const Segment& s, const Segment& t) {
+  return is_before(s.a, t.a) || (s.a == t.a && is_before(s.b, t.b));
+}
+bool comes_before(const std::vector<Vec2>& a, const std::vector<Vec2>& b) {
+  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), is_before);
+}
+
+Box box_of_shape(const Segment& wall) { return box_of(wall); }
+Box box_of_shape(const std::vector<Vec2>& corners) { return box_around(corners); }
+
+/// The boxes of the shapes that only one of the two has. False: these are too many.
+template <class Shape>
+bool add_changed_shapes(std::vector<Shape> before, std::vector<Shape> now, std::vector<Box>& places,
+                        const Execution& execution) {
+  const auto less = [](const Shape& a, const Shape& b) { return comes_before(a, b); };
+  for (std::vector<Shape>* shapes : {&before, &now}) polled_sort(shapes->begin(), shapes->end(), execution, less);
+  std::vector<Shape> only;
+  std::set_symmetric_difference(before.begin(), before.end(), now.begin(), now.end(), std::back_inserter(only), less);
+  if (only.size() + places.size() > most_changed_places) return false;
+  for (const Shape& shape : only) places.push_back(box_of_shape(shape));
+  return true;
+}
+
+/// Where two worlds differ: the boxes of the obstacles that only one of them has. What keeps clear of all these boxes
+/// meets the same obstacles in both. Nothing where the worlds differ in more than obstacles of the plane: in bounds,
+/// maze, map, solids or, of maps, in size and place; or in too many obstacles. O(n log n) for n obstacles.
+std::optional<std::vector<Box>> changed_places(const Scene& before, const Scene& now, const Execution& execution) {
+  const bool is_framed_alike = same_box(before.bounds, now.bounds) && before.maze == now.maze && !has_solids(before) &&
+                               !has_solids(now) && before.seams.size() == now.seams.size() &&
+                               before.map.has_value() == now.map.has_value();
+  if (!is_framed_alike) return std::nullopt;
+  if (!before.bounds && !same_box(obstacle_box(before, execution), obstacle_box(now, execution))) return std::nullopt;
+  std::vector<Box> places;
+  if (before.map && !add_changed_cells(*before.map, *now.map, places)) return std::nullopt;
+  if (!add_changed_shapes(walls_of(before, execution), walls_of(now, execution), places, execution))
+    return std::nullopt;
+  if (!add_changed_shapes(outlines_of(before), outlines_of(now), places, execution)) return std::nullopt;
+  return places;
 }
 
 std::string_view why_nothing_is_kept(PlannerKind planner) {
@@ -145,11 +222,10 @@ bool grows(const SolveOptions& options, const Scene& scene, const RobotSpec& rob
 EdgeCounts count_edges(const Roadmap& roadmap, const Execution& execution) {
   if (roadmap.lattice != nullptr) return edges_of(roadmap.lattice->passages(), execution);
   const RoadmapArrays& arrays = roadmap.arrays;
-  constexpr std::size_t polled = std::size_t{1} << 20;
   EdgeCounts counts;
   const std::size_t ends = arrays.candidates.targets().size();
   for (std::size_t end = 0; end < ends; ++end) {
-    if (end % polled == 0) execution.check();
+    execution.poll(end);
     const EdgeState state = edge_state(arrays.edge_states, end);
     ++(state == EdgeState::free ? counts.free : state == EdgeState::blocked ? counts.blocked : counts.unchecked);
   }

@@ -161,7 +161,7 @@ struct CheckedHeader {
 };
 
 /// Any number of threads may read. Neither copied nor moved, for views refer to it; everything given out ends with it.
-class RoadmapFile {
+class RoadmapFile : NotCopied {
  public:
   /// Throws ReadError, InputError (which names the file, and the section where it is one's fault), Stopped.
   RoadmapFile(const std::string& path, const Execution& execution);
@@ -169,8 +169,6 @@ class RoadmapFile {
   static RoadmapFile of_bytes(const std::string& name, std::string_view bytes, const Execution& execution) {
     return {name, bytes, execution};
   }
-  RoadmapFile(const RoadmapFile&) = delete;
-  RoadmapFile& operator=(const RoadmapFile&) = delete;
 
   const std::string& name() const { return file_.name(); }
   const RoadmapFileHeader& header() const { return head_.header; }

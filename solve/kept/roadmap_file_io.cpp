@@ -24,9 +24,11 @@
 namespace warren {
 namespace {
 
-constexpr std::array<std::string_view, 10> graph_section_names{"meta",       "states",    "edge.first", "edge.to",
-                                                               "edge.state", "component", "up.first",   "up.to",
-                                                               "up.middle",  "up.length"};
+/// But for those of a lattice.
+constexpr std::string_view known_sections[] = {"meta",       "states",      "edge.first",  "edge.to",     "edge.state",
+                                               "component",  "up.first",    "up.to",       "up.middle",   "up.length",
+                                               "world.text", "maze.walls",  "world.walls", "world.seams", "map.place",
+                                               "map.size",   "map.blocked", "map.unknown", "map.water"};
 constexpr std::size_t longest_meta = std::size_t{1} << 20;
 
 std::uint64_t hash_number(std::string_view digits) {
@@ -38,11 +40,8 @@ std::uint64_t hash_number(std::string_view digits) {
 std::uint64_t hash_of(std::string_view text) { return checksum(std::as_bytes(std::span(text))); }
 
 void refuse_unknown_sections(const RoadmapFile& file) {
-  std::vector<std::string_view> known(graph_section_names.begin(), graph_section_names.end());
-  known.insert(known.end(), world_section_names.begin(), world_section_names.end());
-  for (const SectionPlace& place : file.sections()) {
-    if (is_lattice_section(place.name)) known.push_back(place.name);
-  }
+  std::vector<std::string_view> known(std::begin(known_sections), std::end(known_sections));
+  for (const RouteSection& kind : route_section_kinds()) known.push_back(kind.name);
   file.refuse_unknown(known);
 }
 
@@ -116,7 +115,7 @@ KeptWorld world_inside(const RoadmapFile& file, const Roadmap& roadmap, const Ex
   };
   if (lattice == nullptr) return KeptWorld(make(execution));
   KeptWorld::LookUp look_up;
-  if (walls_are_passages(file, outline)) {
+  if (is_nothing_but_maze(outline) && file.find("maze.walls") == nullptr && file.find("world.walls") == nullptr) {
     look_up = [&file, maze = *outline.maze, hash = roadmap.world_hash](const Execution& on) {
       return cells_of_words(file.name(), maze, file.section<std::uint64_t>("passages.right", on),
                             file.section<std::uint64_t>("passages.up", on), hash, on);
@@ -161,8 +160,7 @@ std::string attach_json(const GrowingAttach& attach) {
 
 std::string rule_json(const ConnectionRule& rule) {
   JsonObject object(", ", ": ");
-  object.add("radius", rule.radius);
-  object.add("neighbours", rule.neighbours);
+  object.add("radius", rule.radius, "neighbours", rule.neighbours);
   if (rule.attach) object.add_json("attach", attach_json(*rule.attach));
   return object.closed();
 }
@@ -367,20 +365,14 @@ std::string recipe_json(const Roadmap& roadmap, const Execution& execution) {
 std::string meta_json(const Roadmap& roadmap, const Execution& execution) {
   const EdgeCounts edges = count_edges(roadmap, execution);
   JsonObject counts(", ", ": ");
-  counts.add("unchecked", edges.unchecked);
-  counts.add("free", edges.free);
-  counts.add("blocked", edges.blocked);
+  counts.add("unchecked", edges.unchecked, "free", edges.free, "blocked", edges.blocked);
   JsonObject object(",\n ", ": ");
-  object.add("schema", schema);
-  object.add("source", std::string_view(roadmap.world.outline().source));
-  object.add("world_hash", std::string_view(roadmap.world_hash));
+  object.add("schema", schema, "source", roadmap.world.outline().source, "world_hash", roadmap.world_hash);
   add_recipe(object, roadmap, execution);
   if (roadmap.index == IndexChoice::none) object.add("asked_index", name_of(roadmap.index));
   object.add_json("rule", rule_json(roadmap.rule));
-  object.add("drawn", roadmap.samples);
-  object.add("dimension", roadmap.arrays.dimension);
-  object.add("directed", roadmap.arrays.directed);
-  object.add("states", count_states(roadmap));
+  object.add("drawn", roadmap.samples, "dimension", roadmap.arrays.dimension);
+  object.add("directed", roadmap.arrays.directed, "states", count_states(roadmap));
   object.add_json("edges", counts.closed());
   object.add("index", roadmap.lattice != nullptr         ? std::string_view("route")
                       : roadmap.arrays.hierarchy.empty() ? std::string_view("none")
@@ -474,13 +466,11 @@ void write_roadmap(const Roadmap& roadmap, OutputFile& file, const Execution& ex
   const std::string meta = meta_json(roadmap, execution);
   const RoadmapParts parts = roadmap.arrays.parts();
   const LatticePassages* lattice = roadmap.lattice != nullptr ? &roadmap.lattice->passages() : nullptr;
-  std::optional<WorldSections> world;
-  if (with_world) world.emplace(roadmap.world.whole(execution), lattice, execution);
+  HeldNumbers held;
   std::vector<RoadmapSection> sections{roadmap_section("meta", std::span<const char>(meta))};
-  if (world) world->append_to(sections);
+  if (with_world) append_world_sections(roadmap.world.whole(execution), lattice, held, sections, execution);
   roadmap.lattice != nullptr ? append_lattice_sections(*roadmap.lattice, sections) : append_graph(parts, sections);
-  const HierarchySections index(roadmap.arrays.hierarchy, execution);
-  index.append_to(sections);
+  append_hierarchy_sections(roadmap.arrays.hierarchy, held, sections, execution);
   static_assert(sizeof("warren " WARREN_VERSION) - 1 <= sizeof(FixedHeader::writer));
   const RoadmapFileHeader header{.world_hash = hash_number(roadmap.world_hash),
                                  .recipe_hash = hash_of(recipe_json(roadmap, execution)),

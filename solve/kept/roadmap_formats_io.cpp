@@ -9,11 +9,15 @@
 #include <array>
 #include <cassert>
 #include <exception>
+#include <optional>
 
 #include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
+#include "planners/roadmap/milestones.hpp"
 #include "scenes/files/npy_io.hpp"
 #include "scenes/text/json_text.hpp"
+#include "solve/kept/export_roadmap.hpp"
+#include "solve/kept/roadmap_query.hpp"
 
 namespace warren {
 namespace {
@@ -69,33 +73,194 @@ constexpr bool is_in_plane(std::size_t dimension) { return dimension == 2 || dim
 
 using ExportedState = std::span<const double>;
 
-/// append(v, its state, out) says what stands of each vertex.
-template <class Append>
-void write_each_vertex(const RoadmapParts& parts, OutputFile& file, const Execution& execution, const Append& append) {
-  write_in_pieces(file, parts.vertex_count(), vertices_a_piece, execution, [&](Range range, std::string& text) {
-    for (std::size_t v = range.first; v < range.last; ++v) {
-      append(v, parts.state(static_cast<VertexId>(v)), std::back_inserter(text));
+/// The edges that an export writes, in the order of their rows, numbered from 0: what the formats share. A first pass
+/// over the states of the ends counts them in blocks, so that heads can say how many follow, and any block can be
+/// written without those before it, on any thread: any number of them may ask. O(E) time a pass; memory: 40 bytes for
+/// 4096 edge ends.
+class ExportedEdgesView {
+ public:
+  static constexpr std::size_t grain = edge_ends_a_block;
+
+  /// Counts. Throws Stopped.
+  ExportedEdgesView(const ExportedRoadmapView& roadmap, EdgeWays ways, const Execution& execution)
+      : parts_(roadmap.parts),
+        length_(roadmap.length),
+        with_unchecked_(roadmap.options.with_unchecked),
+        every_end_(roadmap.parts.directed || ways == EdgeWays::both) {
+    assert(parts_.states.size() == parts_.vertex_count() * parts_.dimension);
+    assert(parts_.component.size() == parts_.vertex_count());
+    assert(parts_.edge_states.size() >= edge_state_words(ends()));
+    const std::size_t blocks = chunk_count(ends(), grain);
+    execution.reserve(blocks * (sizeof(ExportAccount) + sizeof(std::uint64_t)));
+    const auto tallies = parts_of_chunks(ends(), grain, execution, [&](Range range) { return tally(range); });
+    numbers_.assign(1, 0);
+    numbers_.reserve(blocks + 1);
+    for (const ExportAccount& tally : tallies) {
+      numbers_.push_back(numbers_.back() + tally.edges);
+      account_.unchecked_left_out += tally.unchecked_left_out;
+      account_.blocked_left_out += tally.blocked_left_out;
     }
-  });
-}
+    account_.vertices = parts_.vertex_count();
+    account_.edges = every_end_ && !parts_.directed ? count() / 2 : count();
+  }
 
-/// The same of each edge: append(edge, out).
-template <class Append>
-void write_each_edge(const ExportedEdgesView& edges, OutputFile& file, const Execution& execution,
-                     const Append& append) {
-  write_in_pieces(file, edges.ends(), edges.grain, execution, [&](Range range, std::string& text) {
-    edges.visit(range, [&](const ExportedEdge& edge) { append(edge, std::back_inserter(text)); });
-  });
-}
+  std::uint64_t count() const { return numbers_.back(); }  ///< of lines: with EdgeWays::both two an undirected edge
+  /// How many are written, and how many are not.
+  const ExportAccount& account() const { return account_; }
+  /// Edge ends of the roadmap, written or not.
+  std::size_t ends() const { return parts_.to.size(); }
+  /// Throws InputError where it is no finite number, zero or more.
+  double length(const ExportedEdge& edge) const {
+    const double length = length_or_infinity(edge);
+    if (length < infinity) return length;
+    throw InputError(fmt::format("edge {} -> {} of the roadmap", edge.from, edge.to),
+                     "the length of an edge that is exported must be a finite number, zero or more",
+                     fmt::format("{}", length_(edge.from, edge.to)));
+  }
+  /// The largest length; 0 without edges. Throws for the first edge that length() throws for.
+  double longest(const Execution& execution) const {
+    std::vector<double> longest_of(chunk_count(ends(), grain));
+    for_chunks(ends(), grain, execution, [&](Range range) {
+      double& longest = longest_of[range.first / grain];
+      visit(range, [&](const ExportedEdge& edge) { longest = std::max(longest, length_or_infinity(edge)); });
+    });
+    double longest = 0;
+    for (std::size_t block = 0; block < longest_of.size(); ++block) {
+      const Range range{block * grain, std::min(ends(), (block + 1) * grain)};
+      if (longest_of[block] == infinity) visit(range, [&](const ExportedEdge& edge) { length(edge); });  // throws
+      longest = std::max(longest, longest_of[block]);
+    }
+    return longest;
+  }
 
-/// Both are put in place when both are whole.
-void commit_both(const std::string& first_path, OutputFile& first, OutputFile& second) {
-  first.complete();
-  second.complete();
-  FirstOfTwoFiles in_place(first_path);
-  first.commit();
-  second.commit();
-  in_place.keep();
+  /// Calls body(ExportedEdge) for what is written of these ends: one block, as for_chunks with this grain gives them.
+  template <class Body>
+  void visit(Range ends, const Body& body) const {
+    std::uint64_t number = numbers_[ends.first / grain];
+    visit_ends(ends, [&](VertexId from, VertexId to, EdgeState state) {
+      if (is_written(from, to, state)) body(ExportedEdge{number++, from, to, state});
+    });
+  }
+  /// Calls body(number) for each vertex of the range: the number of the first edge from it or from a later one, so for
+  /// vertex_count() all of them. Only where each end is written or left out by its state: not with EdgeWays::once.
+  template <class Body>
+  void visit_rows(Range vertices, const Body& body) const {
+    std::size_t end = 0;
+    std::uint64_t number = 0;
+    for (std::size_t v = vertices.first; v < vertices.last; ++v) {
+      const std::size_t first = parts_.first.empty() ? 0 : parts_.first[v];
+      if (v == vertices.first || first / grain != end / grain) {  // numbers are counted to the blocks' beginnings
+        end = first / grain * grain;
+        number = numbers_[first / grain];
+      }
+      for (; end < first; ++end) number += is_kept(parts_.state_of_end(end)) ? 1 : 0;
+      body(number);
+    }
+  }
+
+ private:
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  bool is_kept(EdgeState state) const {
+    return state == EdgeState::free || (with_unchecked_ && state == EdgeState::unchecked);
+  }
+  bool is_written(VertexId from, VertexId to, EdgeState state) const {
+    return (every_end_ || from < to) && is_kept(state);
+  }
+  double length_or_infinity(const ExportedEdge& edge) const {
+    const bool turned = !parts_.directed && edge.from > edge.to;  // so that both ways are equally long, to the bit
+    const double length = turned ? length_(edge.to, edge.from) : length_(edge.from, edge.to);
+    return length >= 0 ? length : infinity;  // a NaN is no more than 0
+  }
+  template <class Body>
+  void visit_ends(Range ends, const Body& body) const {
+    VertexId from = 0;
+    for (std::size_t end = ends.first; end < ends.last; ++end) {
+      from = row_of(end, from);
+      body(from, parts_.to[end], parts_.state_of_end(end));
+    }
+  }
+  /// The first vertex, not before v, whose ends reach beyond this one.
+  VertexId row_of(std::size_t end, VertexId v) const {
+    if (end < parts_.first[v + 1]) return v;
+    const auto after = parts_.first.begin() + v + 1;
+    return static_cast<VertexId>(std::upper_bound(after, parts_.first.end(), end) - parts_.first.begin() - 1);
+  }
+  /// Of lines, not of edges.
+  ExportAccount tally(Range ends) const {
+    ExportAccount tally;
+    visit_ends(ends, [&](VertexId from, VertexId to, EdgeState state) {
+      if (is_written(from, to, state)) ++tally.edges;
+      if (!parts_.directed && from > to) return;  // the edge is told at its other end
+      if (state == EdgeState::blocked) ++tally.blocked_left_out;
+      if (state == EdgeState::unchecked && !with_unchecked_) ++tally.unchecked_left_out;
+    });
+    return tally;
+  }
+
+  RoadmapParts parts_;
+  VertexDistance length_;
+  bool with_unchecked_;
+  bool every_end_;
+  std::vector<std::uint64_t> numbers_;  ///< of the first edge of each block; then of all
+  ExportAccount account_;
+};
+
+/// A roadmap and where it goes; the formats. All throw InputError for a length that is no number, and as OutputFile.
+struct RoadmapExport {
+  const RoadmapParts& parts;
+  const ExportOptions& options;
+  const ExportedEdgesView& edges;
+  OutputFile& file;
+  OutputFile* second;  ///< beside it; nullptr: the format has none
+  const Execution& execution;
+
+  void geojson() const;
+  void graphml() const;
+  void dimacs() const;
+  void csv() const;
+  void npz() const;
+  void dot() const;
+
+  /// append(v, its state, out) says what stands of each vertex.
+  template <class Append>
+  void each_vertex(OutputFile& to, const Append& append) const {
+    write_in_pieces(to, parts.vertex_count(), vertices_a_piece, execution, [&](Range range, std::string& text) {
+      for (std::size_t v = range.first; v < range.last; ++v) {
+        append(v, parts.state(static_cast<VertexId>(v)), std::back_inserter(text));
+      }
+    });
+  }
+  /// The same of each edge: append(edge, out).
+  template <class Append>
+  void each_edge(OutputFile& to, const Append& append) const {
+    write_in_pieces(to, edges.ends(), edges.grain, execution, [&](Range range, std::string& text) {
+      edges.visit(range, [&](const ExportedEdge& edge) { append(edge, std::back_inserter(text)); });
+    });
+  }
+};
+
+struct ExportFormat {
+  std::string_view ending;
+  std::string_view second_ending;  ///< of the file beside it, if there is one
+  EdgeWays ways;
+  void (RoadmapExport::*write)() const;
+};
+
+constexpr std::array<ExportFormat, 6> export_formats{{{".geojson", "", EdgeWays::both, &RoadmapExport::geojson},
+                                                      {".graphml", "", EdgeWays::once, &RoadmapExport::graphml},
+                                                      {".gr", ".co", EdgeWays::both, &RoadmapExport::dimacs},
+                                                      {".csv", ".edges.csv", EdgeWays::once, &RoadmapExport::csv},
+                                                      {".npz", "", EdgeWays::both, &RoadmapExport::npz},
+                                                      {".dot", "", EdgeWays::once, &RoadmapExport::dot}}};
+
+const ExportFormat& format_of(const std::string& path) {
+  std::string endings;
+  for (const ExportFormat& format : export_formats) {
+    if (path.ends_with(format.ending)) return format;
+    endings.append(" ").append(format.ending);
+  }
+  throw UsageError(path + ": a roadmap is exported to a file that ends in one of" + endings +
+                   ", and drawn by .svg .png .pdf .html");
 }
 
 /// The numbers of a state that are written.
@@ -114,9 +279,10 @@ double largest_of_states(const RoadmapParts& parts, const Execution& execution) 
   return largest == largest_of.end() ? 0 : *largest;
 }
 
-void check_loadable(const ExportedRoadmapView& roadmap, const ExportedEdgesView& edges, const std::string& path) {
+/// By Nav2.
+void check_loadable(const RoadmapParts& parts, const ExportedEdgesView& edges, const std::string& path) {
   constexpr std::uint64_t most_ids = std::numeric_limits<std::uint32_t>::max();  // the last one means "none" there
-  if (!is_in_plane(roadmap.parts.dimension)) {
+  if (!is_in_plane(parts.dimension)) {
     throw UsageError(path +
                      ": Nav2's route graphs lie in the plane, and these states are an arm's; export to .graphml,"
                      " .csv or .npz");
@@ -127,9 +293,9 @@ void check_loadable(const ExportedRoadmapView& roadmap, const ExportedEdgesView&
                                  : ": Nav2 loads no route graph without edges, and this roadmap has unchecked ones "
                                    "alone; ask for @with_unchecked"));
   }
-  if (roadmap.parts.vertex_count() + edges.count() > most_ids) {
+  if (parts.vertex_count() + edges.count() > most_ids) {
     throw InputError(path, "Nav2 numbers at most 4294967295 nodes and edges; export to another format",
-                     fmt::format("{} nodes, {} edges", roadmap.parts.vertex_count(), edges.count()));
+                     fmt::format("{} nodes, {} edges", parts.vertex_count(), edges.count()));
   }
 }
 
@@ -150,23 +316,21 @@ using Shape = std::vector<std::uint64_t>;
 
 class NpzWriter {
  public:
-  NpzWriter(const ExportedRoadmapView& roadmap, const ExportedEdgesView& edges, OutputFile& file,
-            const Execution& execution)
-      : parts_(roadmap.parts), edges_(edges), zip_(file), execution_(execution) {}
+  explicit NpzWriter(const RoadmapExport& to) : to_(to), zip_(to.file) {}
 
-  void write(bool with_edge_states) {
-    const std::uint64_t widest = std::max<std::uint64_t>(parts_.vertex_count(), edges_.count());
+  void write() {
+    const std::uint64_t widest = std::max<std::uint64_t>(to_.parts.vertex_count(), to_.edges.count());
     widest <= std::numeric_limits<std::int32_t>::max() ? write_indices<std::int32_t>() : write_indices<std::int64_t>();
     small("format", "|S3", {}, "csr");
     std::string shape;
-    for (int axis = 0; axis < 2; ++axis) append_little_endian(shape, std::int64_t(parts_.vertex_count()));
+    for (int axis = 0; axis < 2; ++axis) append_little_endian(shape, std::int64_t(to_.parts.vertex_count()));
     small("shape", "<i8", {2}, shape);
-    of_edges<double>("data", "<f8", [&](const ExportedEdge& edge) { return edges_.length(edge); });
-    begin("states", "<f8", {parts_.vertex_count(), parts_.dimension}, sizeof(double));
-    of_span(parts_.states);
-    begin("component", "<u4", {parts_.vertex_count()}, sizeof(VertexId));
-    of_span(parts_.component);
-    if (with_edge_states) {
+    of_edges<double>("data", "<f8", [&](const ExportedEdge& edge) { return to_.edges.length(edge); });
+    begin("states", "<f8", {to_.parts.vertex_count(), to_.parts.dimension}, sizeof(double));
+    of_span(to_.parts.states);
+    begin("component", "<u4", {to_.parts.vertex_count()}, sizeof(VertexId));
+    of_span(to_.parts.component);
+    if (to_.options.with_unchecked) {
       of_edges<std::uint8_t>("edge_states", "|u1",
                              [](const ExportedEdge& edge) { return static_cast<std::uint8_t>(edge.state); });
     }
@@ -179,10 +343,11 @@ class NpzWriter {
   void write_indices() {
     const std::string_view type = sizeof(Index) == 4 ? "<i4" : "<i8";
     of_edges<Index>("indices", type, [](const ExportedEdge& edge) { return static_cast<Index>(edge.to); });
-    begin("indptr", type, {parts_.vertex_count() + 1}, sizeof(Index));
+    begin("indptr", type, {to_.parts.vertex_count() + 1}, sizeof(Index));
     constexpr std::size_t grain = vertices_a_piece / 2;  // up to a block of ends is counted for each
-    write_in_pieces(zip_, parts_.vertex_count() + 1, grain, execution_, [&](Range range, std::string& bytes) {
-      edges_.visit_rows(range, [&](std::uint64_t number) { append_little_endian(bytes, static_cast<Index>(number)); });
+    write_in_pieces(zip_, to_.parts.vertex_count() + 1, grain, to_.execution, [&](Range range, std::string& bytes) {
+      to_.edges.visit_rows(range,
+                           [&](std::uint64_t number) { append_little_endian(bytes, static_cast<Index>(number)); });
     });
     zip_.end();
   }
@@ -201,9 +366,9 @@ class NpzWriter {
   /// One number an edge.
   template <class Number, class Value>
   void of_edges(const std::string& name, std::string_view type, const Value& value) {
-    begin(name, type, {edges_.count()}, sizeof(Number));
-    write_in_pieces(zip_, edges_.ends(), edges_.grain, execution_, [&](Range range, std::string& bytes) {
-      edges_.visit(range, [&](const ExportedEdge& edge) { append_little_endian<Number>(bytes, value(edge)); });
+    begin(name, type, {to_.edges.count()}, sizeof(Number));
+    write_in_pieces(zip_, to_.edges.ends(), to_.edges.grain, to_.execution, [&](Range range, std::string& bytes) {
+      to_.edges.visit(range, [&](const ExportedEdge& edge) { append_little_endian<Number>(bytes, value(edge)); });
     });
     zip_.end();
   }
@@ -211,18 +376,16 @@ class NpzWriter {
   void of_span(std::span<const Number> numbers) {
     constexpr std::size_t block = std::size_t{1} << 17;
     for (std::size_t first = 0; first < numbers.size(); first += block) {
-      execution_.check();
+      to_.execution.check();
       const std::span<const Number> some = numbers.subspan(first, std::min(block, numbers.size() - first));
       zip_.write({reinterpret_cast<const char*>(some.data()), some.size_bytes()});
-      execution_.advance(some.size());
+      to_.execution.advance(some.size());
     }
     zip_.end();
   }
 
-  const RoadmapParts& parts_;
-  const ExportedEdgesView& edges_;
+  const RoadmapExport& to_;
   StoredZip zip_;
-  const Execution& execution_;
 };
 
 constexpr std::uint16_t plain_version = 20;
@@ -245,39 +408,30 @@ void append_fields(std::string& text, Fields... fields) {
 
 std::uint16_t size_16(std::string_view text) { return static_cast<std::uint16_t>(text.size()); }
 
-}  // namespace
-
-ExportAccount write_roadmap_csv(const ExportedRoadmapView& roadmap, const ExportFiles& files,
-                                const Execution& execution) {
-  const RoadmapParts& parts = roadmap.parts;
-  const ExportedEdgesView edges(roadmap, EdgeWays::once, execution);
-  OutputFile vertex_file(files.front(), execution);
-  OutputFile edge_file(files.back(), execution);
-  vertex_file.write(fmt::format("id,{},component\n", fmt::join(state_names(parts.dimension), ",")));
-  write_each_vertex(parts, vertex_file, execution, [&](std::size_t v, ExportedState state, auto out) {
+/// Two tables: vertices (id,x,y[,theta] or q1..qn,component) and edges (from,to,length,state), one line of names above
+/// each. Undirected edges stand once, from the smaller vertex.
+void RoadmapExport::csv() const {
+  file.write(fmt::format("id,{},component\n", fmt::join(state_names(parts.dimension), ",")));
+  each_vertex(file, [&](std::size_t v, ExportedState state, auto out) {
     fmt::format_to(out, FMT_COMPILE("{}"), v);
     for (const double x : state) fmt::format_to(out, FMT_COMPILE(",{}"), x);
     fmt::format_to(out, FMT_COMPILE(",{}\n"), parts.component[v]);
   });
-  edge_file.write("from,to,length,state\n");
-  write_each_edge(edges, edge_file, execution, [&](const ExportedEdge& edge, auto out) {
+  second->write("from,to,length,state\n");
+  each_edge(*second, [&](const ExportedEdge& edge, auto out) {
     fmt::format_to(out, FMT_COMPILE("{},{},{},{}\n"), edge.from, edge.to, edges.length(edge), name_of(edge.state));
   });
-  commit_both(files.front(), vertex_file, edge_file);
-  return edges.account();
 }
 
-/// Numbers are quoted: a bare numeral of the language has no exponent.
-ExportAccount write_roadmap_dot(const ExportedRoadmapView& roadmap, const ExportFiles& files,
-                                const Execution& execution) {
-  const RoadmapParts& parts = roadmap.parts;
-  const ExportedEdgesView edges(roadmap, EdgeWays::once, execution);
-  OutputFile file(files.front(), execution);
+/// For Graphviz: `neato -n roadmap.dot -Tsvg`. Vertices stand where they are (pos, with ! so that neato leaves them
+/// there), edges have their length (len), unchecked ones are dashed. Headings and joints are attributes by their names;
+/// an arm's vertices have no pos. Numbers are quoted: a bare numeral of the language has no exponent.
+void RoadmapExport::dot() const {
   file.write(parts.directed ? "digraph roadmap {\n" : "graph roadmap {\n");
   file.write("node [shape=point];\n");
   const std::vector<std::string> names = state_names(parts.dimension);
   const std::size_t said_by_pos = is_in_plane(parts.dimension) ? 2 : 0;
-  write_each_vertex(parts, file, execution, [&](std::size_t v, ExportedState state, auto out) {
+  each_vertex(file, [&](std::size_t v, ExportedState state, auto out) {
     fmt::format_to(out, FMT_COMPILE("{} [component={}"), v, parts.component[v]);
     if (said_by_pos != 0) fmt::format_to(out, FMT_COMPILE(", pos=\"{},{}!\""), state[0], state[1]);
     for (std::size_t i = said_by_pos; i < state.size(); ++i) {
@@ -286,55 +440,50 @@ ExportAccount write_roadmap_dot(const ExportedRoadmapView& roadmap, const Export
     fmt::format_to(out, FMT_COMPILE("];\n"));
   });
   const std::string_view arrow = parts.directed ? "->" : "--";
-  write_each_edge(edges, file, execution, [&](const ExportedEdge& edge, auto out) {
+  each_edge(file, [&](const ExportedEdge& edge, auto out) {
     fmt::format_to(out, FMT_COMPILE("{} {} {} [len=\"{}\"{}];\n"), edge.from, arrow, edge.to, edges.length(edge),
                    edge.state == EdgeState::free ? "" : ", style=dashed");
   });
   file.write("}\n");
-  file.commit();
-  return edges.account();
 }
 
-ExportAccount write_roadmap_dimacs(const ExportedRoadmapView& roadmap, const ExportFiles& files,
-                                   const Execution& execution) {
-  const std::size_t vertices = roadmap.parts.vertex_count();
-  const ExportedEdgesView edges(roadmap, EdgeWays::both, execution);
-  OutputFile arc_file(files.front(), execution);
-  OutputFile coordinate_file(files.back(), execution);
+/// The formats of the 9th DIMACS implementation challenge (shortest paths, 2006): arcs with whole weights (.gr) and
+/// whole coordinates (.co), vertices numbered from 1. Undirected edges are two arcs. Comment lines name the units. Of a
+/// state the plane's x and y are written, of an arm's all joints. Computes each length twice, first to find the
+/// longest.
+void RoadmapExport::dimacs() const {
+  const std::size_t vertices = parts.vertex_count();
   const BinaryUnit weight(edges.longest(execution));
-  arc_file.write(
-      fmt::format("c weights are lengths in units of {}\np sp {} {}\n", weight.name(), vertices, edges.count()));
-  write_each_edge(edges, arc_file, execution, [&](const ExportedEdge& edge, auto out) {
+  file.write(fmt::format("c weights are lengths in units of {}\np sp {} {}\n", weight.name(), vertices, edges.count()));
+  each_edge(file, [&](const ExportedEdge& edge, auto out) {
     fmt::format_to(out, FMT_COMPILE("a {} {} {}\n"), std::uint64_t{edge.from} + 1, std::uint64_t{edge.to} + 1,
                    weight.multiple(edges.length(edge)));
   });
-  const BinaryUnit unit(largest_of_states(roadmap.parts, execution));
-  coordinate_file.write(fmt::format("c coordinates are in units of {}\np aux sp co {}\n", unit.name(), vertices));
-  write_each_vertex(roadmap.parts, coordinate_file, execution, [&](std::size_t v, ExportedState state, auto out) {
+  const BinaryUnit unit(largest_of_states(parts, execution));
+  second->write(fmt::format("c coordinates are in units of {}\np aux sp co {}\n", unit.name(), vertices));
+  each_vertex(*second, [&](std::size_t v, ExportedState state, auto out) {
     fmt::format_to(out, FMT_COMPILE("v {}"), v + 1);
     for (const double x : coordinates(state)) fmt::format_to(out, FMT_COMPILE(" {}"), unit.multiple(x));
     fmt::format_to(out, FMT_COMPILE("\n"));
   });
-  commit_both(files.front(), arc_file, coordinate_file);
-  return edges.account();
 }
 
-/// Metadata keep the point of whole numbers: Nav2 tells the type of a value by it.
-ExportAccount write_roadmap_geojson(const ExportedRoadmapView& roadmap, const ExportFiles& files,
-                                    const Execution& execution) {
-  const RoadmapParts& parts = roadmap.parts;
-  const ExportedEdgesView edges(roadmap, EdgeWays::both, execution);
-  check_loadable(roadmap, edges, files.front());
-  OutputFile file(files.front(), execution);
+/// A route graph of Nav2, by the rules of its loader (nav2_route's GeoJsonGraphFileLoader): nodes are Points with id
+/// and frame, edges MultiLineStrings with id, startid, endid and cost, the length. Edges are directed, so an undirected
+/// one stands twice. An id is given once, be it a node's or an edge's: node v has id v, edge i has vertex_count + i.
+/// Headings are metadata of nodes, "state": "unchecked" of edges that are. One feature a line. Nav2 holds coordinates
+/// and costs as floats and ids in 32 bits. Metadata keep the point of whole numbers: Nav2 tells the type of a value by
+/// it.
+void RoadmapExport::geojson() const {
   file.write("{\"type\":\"FeatureCollection\",\"name\":\"graph\",\"features\":[\n");
-  const std::string frame = json_string(roadmap.options.frame);
-  write_each_vertex(parts, file, execution, [&](std::size_t v, ExportedState state, auto out) {
+  const std::string frame = json_string(options.frame);
+  each_vertex(file, [&](std::size_t v, ExportedState state, auto out) {
     fmt::format_to(out, FMT_COMPILE("{{\"type\":\"Feature\",\"properties\":{{\"id\":{},\"frame\":{}"), v, frame);
     if (parts.dimension == 3) fmt::format_to(out, FMT_COMPILE(",\"metadata\":{{\"theta\":{}}}"), json_number(state[2]));
     fmt::format_to(out, FMT_COMPILE("}},\"geometry\":{{\"type\":\"Point\",\"coordinates\":[{},{}]}}}},\n"), state[0],
                    state[1]);
   });
-  write_each_edge(edges, file, execution, [&](const ExportedEdge& edge, auto out) {
+  each_edge(file, [&](const ExportedEdge& edge, auto out) {
     const std::span<const double> a = parts.state(edge.from);
     const std::span<const double> b = parts.state(edge.to);
     fmt::format_to(
@@ -346,25 +495,20 @@ ExportAccount write_roadmap_geojson(const ExportedRoadmapView& roadmap, const Ex
         edge.number + 1 == edges.count() ? "" : ",");
   });
   file.write("]}\n");
-  file.commit();
-  return edges.account();
 }
 
-ExportAccount write_roadmap_graphml(const ExportedRoadmapView& roadmap, const ExportFiles& files,
-                                    const Execution& execution) {
-  const RoadmapParts& parts = roadmap.parts;
-  const ExportedEdgesView edges(roadmap, EdgeWays::once, execution);
-  OutputFile file(files.front(), execution);
+/// Nodes with x, y, theta or q1..qn and component, edges with length and state. http://graphml.graphdrawing.org
+void RoadmapExport::graphml() const {
   file.write(graphml_head(parts));
   const std::vector<std::string> names = state_names(parts.dimension);
-  write_each_vertex(parts, file, execution, [&](std::size_t v, ExportedState state, auto out) {
+  each_vertex(file, [&](std::size_t v, ExportedState state, auto out) {
     fmt::format_to(out, FMT_COMPILE("<node id=\"{}\">"), v);
     for (std::size_t i = 0; i < state.size(); ++i) {
       fmt::format_to(out, FMT_COMPILE("<data key=\"{}\">{}</data>"), names[i], state[i]);
     }
     fmt::format_to(out, FMT_COMPILE("<data key=\"component\">{}</data></node>\n"), parts.component[v]);
   });
-  write_each_edge(edges, file, execution, [&](const ExportedEdge& edge, auto out) {
+  each_edge(file, [&](const ExportedEdge& edge, auto out) {
     fmt::format_to(
         out,
         FMT_COMPILE(
@@ -372,17 +516,76 @@ ExportAccount write_roadmap_graphml(const ExportedRoadmapView& roadmap, const Ex
         edge.from, edge.to, edges.length(edge), name_of(edge.state));
   });
   file.write("</graph>\n</graphml>\n");
+}
+
+/// For SciPy and NumPy: the matrix of lengths in compressed rows as scipy.sparse.load_npz reads it (indices, indptr,
+/// format, shape, data; both ways of an undirected edge), and by numpy.load also `states` (vertex_count x dimension),
+/// `component`, and where unchecked edges are asked for `edge_states`, one a length: 0 unchecked, 1 free.
+void RoadmapExport::npz() const { NpzWriter(*this).write(); }
+
+}  // namespace
+
+std::vector<std::string> files_of_export(const std::string& path) {
+  const ExportFormat& format = format_of(path);
+  if (format.second_ending.empty()) return {path};
+  return {path, path.substr(0, path.size() - format.ending.size()).append(format.second_ending)};
+}
+
+ExportAccount export_roadmap(const std::string& path, const RoadmapParts& parts, const VertexDistance& length,
+                             const ExportOptions& options, const Execution& execution) {
+  const ExportFormat& format = format_of(path);
+  if (execution.progress != nullptr) execution.progress->begin("export", parts.vertex_count() + 2 * parts.to.size());
+  const ExportedEdgesView edges({parts, length, options}, format.ways, execution);
+  if (format.write == &RoadmapExport::geojson) check_loadable(parts, edges, path);
+  OutputFile file(path, execution);
+  std::optional<OutputFile> second;
+  if (!format.second_ending.empty()) second.emplace(files_of_export(path).back(), execution);
+  (RoadmapExport{parts, options, edges, file, second ? &*second : nullptr, execution}.*format.write)();
+  if (!second) {
+    file.commit();
+    return edges.account();
+  }
+  file.complete();  // both are put in place when both are whole
+  second->complete();
+  FirstOfTwoFiles in_place(path);
   file.commit();
+  second->commit();
+  in_place.keep();
   return edges.account();
 }
 
-ExportAccount write_roadmap_npz(const ExportedRoadmapView& roadmap, const ExportFiles& files,
+RoadmapArrays arrays_of(const LatticePassages& passages, const Execution& execution) {
+  constexpr std::size_t most_ends = 4;
+  const std::uint64_t cells = passages.cell_count();
+  execution.reserve(cells * (sizeof(EdgeEnd) + (most_ends + 1) * sizeof(VertexId)));
+  RawVector<EdgeEnd> offsets;
+  offsets.reserve(cells + 1);
+  RawVector<VertexId> targets;
+  for (std::uint64_t i = 0; i < cells; ++i) {
+    execution.poll(i);
+    offsets.push_back(static_cast<EdgeEnd>(targets.size()));
+    passages.for_each_neighbour(static_cast<CellId>(i), [&](CellId to) { targets.push_back(to); });
+    std::sort(targets.begin() + offsets.back(), targets.end());
+  }
+  offsets.push_back(static_cast<EdgeEnd>(targets.size()));
+  const auto at = [&](VertexId v) { return lattice_point(passages.size(), v); };
+  RoadmapArrays arrays = free_arrays(at, Graph(std::move(offsets), std::move(targets)), execution);
+  arrays.component = free_components(arrays.parts(), execution);
+  return arrays;
+}
+
+ExportAccount export_of_roadmap(const Roadmap& roadmap, const std::string& path, const ExportOptions& options,
                                 const Execution& execution) {
-  const ExportedEdgesView edges(roadmap, EdgeWays::both, execution);
-  OutputFile file(files.front(), execution);
-  NpzWriter(roadmap, edges, file, execution).write(roadmap.options.with_unchecked);
-  file.commit();
-  return edges.account();
+  if (roadmap.lattice != nullptr) {
+    const RoadmapArrays arrays = arrays_of(roadmap.lattice->passages(), execution);
+    const auto one_step = [](VertexId, VertexId) { return 1.0; };
+    ExportAccount account = export_roadmap(path, arrays.parts(), VertexDistance(one_step), options, execution);
+    account.blocked_left_out = count_edges(roadmap, execution).blocked;
+    return account;
+  }
+  const RoadmapQuery query(roadmap, execution, Questions::one);
+  const auto length = [&](VertexId v, VertexId w) { return query.distance(v, w); };
+  return export_roadmap(path, roadmap.arrays.parts(), VertexDistance(length), options, execution);
 }
 
 std::uint32_t StoredZip::short_form(std::uint64_t number) const {
@@ -441,7 +644,10 @@ void StoredZip::append_entry(std::string& text, const Member& member) const {
   text.append(member.name).append(field);
 }
 
-void StoredZip::append_end(std::string& text, std::uint64_t directory_bytes) const {
+void StoredZip::close() {
+  std::string text;
+  for (const Member& member : members_) append_entry(text, member);
+  const std::uint64_t directory_bytes = text.size();
   const std::uint64_t count = members_.size();
   if (is_long(place_) || is_long(directory_bytes)) {
     append_fields(text, std::uint32_t{0x06064b50}, std::uint64_t{44}, zip64_version, zip64_version, nothing_32,
@@ -451,13 +657,7 @@ void StoredZip::append_end(std::string& text, std::uint64_t directory_bytes) con
   const auto short_count = static_cast<std::uint16_t>(count);
   append_fields(text, std::uint32_t{0x06054b50}, nothing_16, nothing_16, short_count, short_count,
                 short_form(directory_bytes), short_form(place_), nothing_16);
-}
-
-void StoredZip::close() {
-  std::string directory;
-  for (const Member& member : members_) append_entry(directory, member);
-  append_end(directory, directory.size());
-  put(directory);
+  put(text);
 }
 
 }  // namespace warren

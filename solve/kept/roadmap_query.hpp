@@ -54,15 +54,13 @@ struct LengthAnswer {
 enum class Questions : std::uint8_t { one, many, lengths };
 
 /// Refers to the roadmap. Any number of threads may ask; while they do, learnt() is nobody's.
-class RoadmapQuery {
+class RoadmapQuery : NotCopied {
  public:
   /// Makes what paths need, within the limits. Throws UsageError, InputError, Stopped.
   explicit RoadmapQuery(const Roadmap& roadmap, const Limits& limits = {});
   /// The same under an execution, for what will be asked.
   RoadmapQuery(const Roadmap& roadmap, const Execution& execution, Questions questions = Questions::many);
   ~RoadmapQuery();
-  RoadmapQuery(const RoadmapQuery&) = delete;
-  RoadmapQuery& operator=(const RoadmapQuery&) = delete;
 
   /// Start and goal as Question has them: 2 or 3 numbers, of an arm one a joint; empty: the world file's. Says where
   /// a blocked end is free, and what an estimate cost, too. Throws UsageError, InputError for a world that is not what

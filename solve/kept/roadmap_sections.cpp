@@ -12,7 +12,7 @@
 #include "parallel/chunks.hpp"
 #include "scenes/files/scene_io.hpp"
 #include "scenes/text/input_file_io.hpp"
-#include "solve/kept/maze_bits.hpp"
+#include "solve/kept/lattice_roadmap.hpp"
 
 namespace warren {
 namespace {
@@ -140,6 +140,29 @@ OccupancyMap read_map(const RoadmapFile& file, const Execution& execution) {
   return map;
 }
 
+/// One by one, but for those of a maze.
+void append_walls(const Scene& scene, HeldNumbers& held, std::vector<RoadmapSection>& sections,
+                  const Execution& execution) {
+  if (auto bits = maze_bits(scene, execution)) {
+    held.maze = std::move(*bits);
+    return sections.push_back(roadmap_section("maze.walls", std::span<const std::uint64_t>(held.maze)));
+  }
+  const auto append = [&]<class T>(std::span<const WallOf<T>> walls) {
+    const T* const numbers = walls.empty() ? nullptr : &walls.front().x1;
+    sections.push_back(roadmap_section("world.walls", std::span<const T>(numbers, 4 * walls.size())));
+  };
+  scene.walls.visit([&](auto walls) {
+    if constexpr (std::is_same_v<decltype(walls), std::span<const PackedWall>>) {
+      execution.reserve(walls.size() * sizeof(FloatWall));
+      held.walls.resize(walls.size());
+      for_each_index(walls.size(), wall_grain, execution, [&](std::size_t i) { held.walls[i] = unpacked(walls[i]); });
+      append(std::span<const FloatWall>(held.walls));
+    } else {
+      append(walls);
+    }
+  });
+}
+
 }  // namespace
 
 Hierarchy read_hierarchy(const RoadmapFile& file, std::size_t vertex_count, const Execution& execution) {
@@ -161,37 +184,30 @@ Hierarchy read_hierarchy(const RoadmapFile& file, std::size_t vertex_count, cons
   return hierarchy;
 }
 
-HierarchySections::HierarchySections(const Hierarchy& hierarchy, const Execution& execution) : hierarchy_(hierarchy) {
+void append_hierarchy_sections(const Hierarchy& hierarchy, HeldNumbers& held, std::vector<RoadmapSection>& sections,
+                               const Execution& execution) {
+  if (hierarchy.empty()) return;
   const std::size_t arcs = hierarchy.arcs.size();
   execution.reserve(arcs * sizeof(HierarchyArc));
-  to_.resize(arcs);
-  middle_.resize(arcs);
-  length_.resize(arcs);
+  held.to.resize(arcs);
+  held.middle.resize(arcs);
+  held.length.resize(arcs);
   for_each_index(arcs, arc_grain, execution, [&](std::size_t i) {
-    to_[i] = hierarchy.arcs[i].to;
-    middle_[i] = hierarchy.arcs[i].middle;
-    length_[i] = hierarchy.arcs[i].length;
+    held.to[i] = hierarchy.arcs[i].to;
+    held.middle[i] = hierarchy.arcs[i].middle;
+    held.length[i] = hierarchy.arcs[i].length;
   });
-}
-
-void HierarchySections::append_to(std::vector<RoadmapSection>& sections) const {
-  if (hierarchy_.empty()) return;
   const auto add = [&]<class T>(std::string_view name, const RawVector<T>& numbers) {
     sections.push_back(roadmap_section(name, std::span<const T>(numbers), true));
   };
-  add("up.first", hierarchy_.first);
-  add("up.to", to_);
-  add("up.middle", middle_);
-  add("up.length", length_);
+  add("up.first", hierarchy.first);
+  add("up.to", held.to);
+  add("up.middle", held.middle);
+  add("up.length", held.length);
 }
 
 void append_lattice_sections(const RouteIndex& index, std::vector<RoadmapSection>& sections) {
   for (const RouteSection& s : route_sections(index)) sections.push_back({s.name, type_of(s.element_bytes), s.bytes});
-}
-
-bool is_lattice_section(std::string_view name) {
-  const std::vector<RouteSection> kinds = route_section_kinds();
-  return std::ranges::any_of(kinds, [&](const RouteSection& kind) { return kind.name == name; });
 }
 
 std::unique_ptr<RouteIndex> read_lattice(const RoadmapFile& file, LatticeSize size, const Execution& execution) {
@@ -218,61 +234,26 @@ void check_lattice(const RoadmapFile& file, const RouteIndex& index, const Execu
   named_by(file, [&] { check_route_arrays(index.places(), index.arrays()); });
 }
 
-WorldSections::WorldSections(const Scene& scene, const LatticePassages* lattice, const Execution& execution)
-    : scene_(scene) {
+void append_world_sections(const Scene& scene, const LatticePassages* lattice, HeldNumbers& held,
+                           std::vector<RoadmapSection>& sections, const Execution& execution) {
   write_scene_text(
-      without_arrays(scene), [&](std::string_view text) { text_.append(text); }, execution);
-  in_lattice_ = lattice != nullptr && has_walls_of(*lattice, scene, execution);
-  if (!in_lattice_) maze_ = maze_bits(scene, execution);
-  if (!in_lattice_ && !maze_ && scene.walls.holds_packed()) unpack_walls(execution);
-  for (const Segment& s : scene.seams) seams_.insert(seams_.end(), {s.a.x, s.a.y, s.b.x, s.b.y});
+      without_arrays(scene), [&](std::string_view text) { held.text.append(text); }, execution);
+  sections.push_back(roadmap_section("world.text", std::span<const char>(held.text)));
+  if (lattice == nullptr || !has_walls_of(*lattice, scene, execution)) append_walls(scene, held, sections, execution);
+  for (const Segment& s : scene.seams) held.seams.insert(held.seams.end(), {s.a.x, s.a.y, s.b.x, s.b.y});
+  sections.push_back(roadmap_section("world.seams", std::span<const double>(held.seams)));
   if (!scene.map) return;
   const OccupancyMap& map = *scene.map;
-  map_place_ = {map.cell, map.origin.x, map.origin.y, map.yaw_rad};
-  add_point(map_place_, map.start);
-  add_point(map_place_, map.goal);
-  map_size_ = {map.width(),       map.height(), static_cast<std::uint64_t>(map.format), map.free, map.occupied,
-               map.unknown_count, map.between};
-}
-
-void WorldSections::append_to(std::vector<RoadmapSection>& sections) const {
-  sections.push_back(roadmap_section("world.text", std::span<const char>(text_)));
-  if (maze_) {
-    sections.push_back(roadmap_section("maze.walls", std::span<const std::uint64_t>(*maze_)));
-  } else if (!in_lattice_) {
-    append_walls(sections);
-  }
-  sections.push_back(roadmap_section("world.seams", std::span<const double>(seams_)));
-  if (!scene_.map) return;
-  sections.push_back(roadmap_section("map.place", std::span<const double>(map_place_)));
-  sections.push_back(roadmap_section("map.size", std::span<const std::uint64_t>(map_size_)));
-  sections.push_back(roadmap_section("map.blocked", scene_.map->blocked.words()));
-  if (!scene_.map->unknown.empty()) sections.push_back(roadmap_section("map.unknown", scene_.map->unknown.words()));
-  if (!scene_.map->water.empty()) sections.push_back(roadmap_section("map.water", scene_.map->water.words()));
-}
-
-void WorldSections::unpack_walls(const Execution& execution) {
-  execution.reserve(scene_.walls.size() * sizeof(FloatWall));
-  unpacked_.resize(scene_.walls.size());
-  scene_.walls.visit([&](auto walls) {
-    if constexpr (std::is_same_v<decltype(walls), std::span<const PackedWall>>) {
-      for_each_index(walls.size(), wall_grain, execution, [&](std::size_t i) { unpacked_[i] = unpacked(walls[i]); });
-    }
-  });
-}
-
-void WorldSections::append_walls(std::vector<RoadmapSection>& sections) const {
-  const auto append = [&]<class T>(std::span<const WallOf<T>> walls) {
-    const T* const numbers = walls.empty() ? nullptr : &walls.front().x1;
-    sections.push_back(roadmap_section("world.walls", std::span<const T>(numbers, 4 * walls.size())));
-  };
-  scene_.walls.visit([&](auto walls) {
-    if constexpr (std::is_same_v<decltype(walls), std::span<const PackedWall>>) {
-      append(std::span<const FloatWall>(unpacked_));
-    } else {
-      append(walls);
-    }
-  });
+  held.map_place = {map.cell, map.origin.x, map.origin.y, map.yaw_rad};
+  add_point(held.map_place, map.start);
+  add_point(held.map_place, map.goal);
+  held.map_size = {map.width(),       map.height(), static_cast<std::uint64_t>(map.format), map.free, map.occupied,
+                   map.unknown_count, map.between};
+  sections.push_back(roadmap_section("map.place", std::span<const double>(held.map_place)));
+  sections.push_back(roadmap_section("map.size", std::span<const std::uint64_t>(held.map_size)));
+  sections.push_back(roadmap_section("map.blocked", map.blocked.words()));
+  if (!map.unknown.empty()) sections.push_back(roadmap_section("map.unknown", map.unknown.words()));
+  if (!map.water.empty()) sections.push_back(roadmap_section("map.water", map.water.words()));
 }
 
 Scene read_world_outline(const RoadmapFile& file, const Execution& execution) {

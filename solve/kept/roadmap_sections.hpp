@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The index of a roadmap of states in its file: an array for each number of an arc, whatever the memory has.
+// The sections of a roadmap's file: written from what the memory has, and read back.
 #pragma once
 
-#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/base/raw_vector.hpp"
@@ -19,22 +18,26 @@
 
 namespace warren {
 
+/// What has to be put together for sections, which refer to it.
+struct HeldNumbers {
+  std::string text = {};  ///< of the world
+  RawVector<std::uint64_t> maze = {};
+  RawVector<FloatWall> walls = {};  ///< where the scene has them packed and they are written one by one
+  std::vector<double> seams = {};
+  std::vector<double> map_place = {};
+  std::vector<std::uint64_t> map_size = {};
+  RawVector<VertexId> to = {};  ///< of the index's arcs, 16 bytes each, as the next two
+  RawVector<VertexId> middle = {};
+  RawVector<double> length = {};
+};
+
+// The index of a roadmap of states in its file: an array for each number of an arc, whatever the memory has.
+
 /// Empty where the file has none. Throws InputError where it is not whole, and Stopped.
 Hierarchy read_hierarchy(const RoadmapFile& file, std::size_t vertex_count, const Execution& execution);
-
-/// Refers to the hierarchy; what is written lives as long as this: 16 bytes an arc.
-class HierarchySections {
- public:
-  /// Throws Stopped.
-  HierarchySections(const Hierarchy& hierarchy, const Execution& execution);
-  void append_to(std::vector<RoadmapSection>& sections) const;
-
- private:
-  const Hierarchy& hierarchy_;
-  RawVector<VertexId> to_;
-  RawVector<VertexId> middle_;
-  RawVector<double> length_;
-};
+/// Refers to the hierarchy. Throws Stopped.
+void append_hierarchy_sections(const Hierarchy& hierarchy, HeldNumbers& held, std::vector<RoadmapSection>& sections,
+                               const Execution& execution);
 
 // A lattice roadmap as sections of its file: its passages, and the arrays of its route index under their own names.
 
@@ -42,8 +45,6 @@ class HierarchySections {
 void append_lattice_sections(const RouteIndex& index, std::vector<RoadmapSection>& sections);
 
 inline bool has_lattice(const RoadmapFile& file) { return file.find("passages.right") != nullptr; }
-/// Is it one of their names?
-bool is_lattice_section(std::string_view name);
 
 /// Looks at the file, which must outlive it. Of a file of up to 64 MiB all is checked; of a larger one questions check
 /// what they look at, and throw InputError. Throws InputError, Stopped.
@@ -53,36 +54,10 @@ void check_lattice(const RoadmapFile& file, const RouteIndex& index, const Execu
 
 /// The world of a roadmap as sections of its file (docs/file_formats.md): walls as numbers or as a maze's bits, a map
 /// as bits, all else as scene text, so that what is read back has the same hash as what was written. A maze's walls
-/// that stand wherever its lattice has no passage are said by the lattice alone. Refers to the scene; holds what has to
-/// be put together.
-class WorldSections {
- public:
-  /// `lattice`: of the same file, or nullptr. Throws Stopped.
-  WorldSections(const Scene& scene, const LatticePassages* lattice, const Execution& execution);
-  WorldSections(const WorldSections&) = delete;
-  WorldSections& operator=(const WorldSections&) = delete;
-
-  void append_to(std::vector<RoadmapSection>& sections) const;
-
- private:
-  void unpack_walls(const Execution& execution);
-  void append_walls(std::vector<RoadmapSection>& sections) const;
-
-  const Scene& scene_;
-  std::string text_;
-  bool in_lattice_ = false;  // the walls are
-  std::optional<RawVector<std::uint64_t>> maze_;
-  RawVector<FloatWall> unpacked_;  // the walls, where the scene has them packed and they are written one by one
-  RawVector<double> seams_;
-  std::vector<double> map_place_;
-  std::vector<std::uint64_t> map_size_;
-};
-
-/// The names that WorldSections gives its sections.
-inline constexpr std::array world_section_names{
-    std::string_view("world.text"),  std::string_view("maze.walls"),  std::string_view("world.walls"),
-    std::string_view("world.seams"), std::string_view("map.place"),   std::string_view("map.size"),
-    std::string_view("map.blocked"), std::string_view("map.unknown"), std::string_view("map.water")};
+/// that stand wherever its lattice has no passage are said by the lattice alone. Refers to the scene. `lattice`: of the
+/// same file, or nullptr. Throws Stopped.
+void append_world_sections(const Scene& scene, const LatticePassages* lattice, HeldNumbers& held,
+                           std::vector<RoadmapSection>& sections, const Execution& execution);
 
 /// Is there a world in the file?
 inline bool has_world(const RoadmapFile& file) { return file.find("world.text") != nullptr; }

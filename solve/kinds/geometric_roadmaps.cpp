@@ -17,7 +17,6 @@
 namespace warren {
 namespace {
 
-constexpr std::size_t polled = std::size_t{1} << 14;
 constexpr std::size_t most_corners_made_anew = 1000;
 
 /// Known: VisibilityRoadmap or DiscRoadmap.
@@ -33,7 +32,7 @@ RoadmapArrays arrays_of(const CellRoadmap& known, const SolveRequest& request) {
   const auto& [cells, doors] = std::tie(known.cells.cells, known.cells.doors);
   std::vector<Edge> edges;
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (i % polled == 0) request.execution.check();
+    request.execution.poll(i);
     for (std::size_t a = 0; a < cells[i].doors.size(); ++a) {
       for (std::size_t b = 0; b < a; ++b) {
         const auto [from, to] = std::minmax(cells[i].doors[a], cells[i].doors[b]);
@@ -60,37 +59,28 @@ RoadmapArrays arrays_of(const SkeletonRoadmap& known, const SolveRequest& reques
   return free_arrays(at, assemble_graph(lines.cells.size(), lines.edges, request.execution), request.execution);
 }
 
-/// Checks what solving checks before it plans, so that what can't be asked is not built.
+/// edges: of what sees each other, where they are known.
 template <class Known>
-void check(const SolveRequest& request) {
-  if constexpr (std::is_same_v<Known, AxisRoadmap>) {
-    voronoi_problem(request.scene, request.question);
-    check_axis_box(request.scene);
-  } else if constexpr (std::is_same_v<Known, SkeletonRoadmap>) {
-    map_problem(request.scene, request.question);
-  } else {
-    touching_problem(request);
-  }
-}
-
-VisibilityEdges edges_of(const SolveRequest& request) {
-  return request.options.visibility.full ? VisibilityEdges::full : VisibilityEdges::reduced;
-}
-
-template <class Known>
-void make(std::optional<Known>& known, const SolveRequest& request) {
-  check<Known>(request);
+void make(std::optional<Known>& known, const SolveRequest& request, [[maybe_unused]] std::optional<Graph> edges = {}) {
   const Execution& execution = request.execution;
   if constexpr (std::is_same_v<Known, SkeletonRoadmap>) {
     const double radius = map_problem(request.scene, request.question).reach() / request.scene.map->cell;
     known.emplace(request.scene.map->blocked, radius, execution);
   } else {
+    // What solving checks before it plans, so that what can't be asked is not built.
+    if constexpr (std::is_same_v<Known, AxisRoadmap>) {
+      voronoi_problem(request.scene, request.question);
+      check_axis_box(request.scene);
+    } else {
+      touching_problem(request);
+    }
     PlaneObstacles obstacles = plane_obstacles(request.scene, execution);
     without_clashes(request, [&] {
       if constexpr (std::is_same_v<Known, VisibilityRoadmap>) {
-        known.emplace(obstacles, edges_of(request), execution);
+        const bool full = request.options.visibility.full;
+        known.emplace(obstacles, full ? VisibilityEdges::full : VisibilityEdges::reduced, execution, std::move(edges));
       } else if constexpr (std::is_same_v<Known, DiscRoadmap>) {
-        known.emplace(obstacles, execution);
+        known.emplace(obstacles, execution, std::move(edges));
       } else {
         known.emplace(std::move(obstacles), execution);
       }
@@ -110,78 +100,52 @@ bool same(const RoadmapArrays& a, const RoadmapArrays& b) {
          std::ranges::equal(a.edge_states, b.edge_states);
 }
 
+/// Of many corners that see each other with the file's edges; its states are the world's corners.
 template <class Known>
 std::unique_ptr<RoadmapSession> open(const SolveRequest& request, const RoadmapArrays& arrays) {
   auto session = std::make_unique<GeometricSession<Known>>(arrays);
-  make(session->known, request);
+  constexpr bool has_corners = std::is_same_v<Known, VisibilityRoadmap> || std::is_same_v<Known, DiscRoadmap>;
+  std::optional<Graph> edges;
+  if (has_corners && arrays.candidates.vertex_count() > most_corners_made_anew) {
+    request.execution.reserve(arrays.candidates.targets().size() * sizeof(VertexId));
+    edges = arrays.candidates;
+  }
+  make(session->known, request, std::move(edges));
+  if constexpr (has_corners) {
+    if (session->known->graph.size() != arrays.candidates.vertex_count()) refuse_arrays(request);
+  }
   if (!same(arrays, arrays_of(*session->known, request))) refuse_arrays(request);
   return session;
 }
 
-/// The file's edges; its states are the world's corners.
-template <class Known>
-std::unique_ptr<RoadmapSession> open_large_sight(const SolveRequest& request, const RoadmapArrays& arrays) {
-  auto session = std::make_unique<GeometricSession<Known>>(arrays);
-  check<Known>(request);
-  const Execution& execution = request.execution;
-  execution.reserve(arrays.candidates.targets().size() * sizeof(VertexId));
-  const PlaneObstacles obstacles = plane_obstacles(request.scene, execution);
-  if constexpr (std::is_same_v<Known, DiscRoadmap>) {
-    session->known.emplace(obstacles, arrays.candidates, execution);
-  } else {
-    session->known.emplace(obstacles, edges_of(request), arrays.candidates, execution);
+/// What `function` makes of the planner's roadmap; visibility has another one for what keeps a distance.
+template <class Function>
+auto by_planner(const SolveRequest& request, const Function& function) {
+  if (request.planner == PlannerKind::cells) return function.template operator()<CellRoadmap>();
+  if (request.planner == PlannerKind::voronoi) {
+    return request.scene.map ? function.template operator()<SkeletonRoadmap>()
+                             : function.template operator()<AxisRoadmap>();
   }
-  const auto at = [&](VertexId v) { return session->known->graph.positions()[v]; };
-  if (session->known->graph.size() != arrays.candidates.vertex_count() ||
-      !same(arrays, free_arrays(at, arrays.candidates, execution))) {
-    refuse_arrays(request);
-  }
-  return session;
-}
-
-template <class Known>
-std::unique_ptr<RoadmapSession> open_sight(const SolveRequest& request, const RoadmapArrays& arrays) {
-  const bool large = arrays.candidates.vertex_count() > most_corners_made_anew;
-  return large ? open_large_sight<Known>(request, arrays) : open<Known>(request, arrays);
-}
-
-/// Is the roadmap for what keeps a distance from its obstacles?
-bool is_for_discs(const SolveRequest& request) { return touching_problem(request).reach() > 0.0; }
-
-template <class Known>
-RoadmapArrays built(const SolveRequest& request) {
-  std::optional<Known> known;
-  make(known, request);
-  return arrays_of(*known, request);
+  return touching_problem(request).reach() > 0.0 ? function.template operator()<DiscRoadmap>()
+                                                 : function.template operator()<VisibilityRoadmap>();
 }
 
 }  // namespace
 
 BuiltArrays build_geometric(const SolveRequest& request) {
   BuiltArrays all;
-  if (request.planner == PlannerKind::visibility) {
-    all.arrays = is_for_discs(request) ? built<DiscRoadmap>(request) : built<VisibilityRoadmap>(request);
-  } else if (request.planner == PlannerKind::cells) {
-    all.arrays = built<CellRoadmap>(request);
-  } else if (request.scene.map) {
-    all.arrays = built<SkeletonRoadmap>(request);
-  } else {
-    all.arrays = built<AxisRoadmap>(request);
-  }
+  all.arrays = by_planner(request, [&]<class Known>() {
+    std::optional<Known> known;
+    make(known, request);
+    return arrays_of(*known, request);
+  });
   return all;
 }
 
 std::unique_ptr<RoadmapSession> open_geometric(const SolveRequest& request, const RoadmapArrays& arrays,
                                                const ConnectionRule&) {
-  const auto opened = [&]() -> std::unique_ptr<RoadmapSession> {
-    if (request.planner == PlannerKind::cells) return open<CellRoadmap>(request, arrays);
-    if (request.planner == PlannerKind::voronoi) {
-      return request.scene.map ? open<SkeletonRoadmap>(request, arrays) : open<AxisRoadmap>(request, arrays);
-    }
-    return is_for_discs(request) ? open_sight<DiscRoadmap>(request, arrays)
-                                 : open_sight<VisibilityRoadmap>(request, arrays);
-  };
-  std::unique_ptr<RoadmapSession> session = opened();
+  std::unique_ptr<RoadmapSession> session =
+      by_planner(request, [&]<class Known>() { return open<Known>(request, arrays); });
   if (request.many && !request.scene.map) session->judged.emplace(request.scene, request.execution);
   return session;
 }

@@ -6,31 +6,21 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <stdexcept>
 
 #include "core/base/error.hpp"
+#include "core/base/whole.hpp"
+#include "planners/grid/path_classes.hpp"
 #include "planners/grid/visiting_order.hpp"
-#include "solve/kinds/plane_steps.hpp"
-#include "spatial/maps/distance_field.hpp"
+#include "planners/shorten/priced_taut.hpp"
+#include "solve/kinds/solve_steps.hpp"
+#include "verify/judges/verify_classes.hpp"
+#include "verify/judges/verify_point.hpp"
+#include "worlds/plane/grid_world.hpp"
 
 namespace warren {
 namespace {
-
-constexpr double half_diagonal = 0.7071067811865476 + 1e-9;
-
-Vec2 middle(Cell c) { return {c.x + 0.5, c.y + 0.5}; }
-
-/// Calls visit(cell) for all cells that are set, by rows.
-template <class Visit>
-void for_each_set(const Bitmap& set, const Execution& execution, const Visit& visit) {
-  for_each_differing(
-      set, {}, [&] { execution.check(); }, visit);
-}
-
-/// The point of a cell that is nearest to another, off its sides; map coordinates.
-Vec2 nearest_in(Cell cell, Vec2 to, double off) {
-  const auto inside = [off](double x, double low) { return std::clamp(x, low + off, low + 1.0 - off); };
-  return {inside(to.x, cell.x), inside(to.y, cell.y)};
-}
 
 /// One question's decisions, in their order.
 class Choosing {
@@ -42,9 +32,11 @@ class Choosing {
     choice_.goal = problem.goal;
   }
 
-  GoalChoice chosen(std::span<const Vec2> via) {
-    for (std::size_t i = 0; i < via.size(); ++i) check_stop("@via", "way-point", i, via[i]);
-    choice_.stops.assign(via.begin(), via.end());
+  GoalChoice chosen(std::span<const std::vector<double>> via) {
+    for (std::size_t i = 0; i < via.size(); ++i) {
+      choice_.stops.push_back({via[i][0], via[i][1]});
+      check_stop("@via", "way-point", i, choice_.stops.back());
+    }
     if (!open_end_ && !find_ends()) return std::move(choice_);
     if (!rule_.visit.empty() && !find_order()) return std::move(choice_);
     if (open_end_) {
@@ -235,215 +227,180 @@ double tour_bound(Vec2 start, std::span<const Vec2> places, std::span<const Vec2
   return static_cast<double>(best_order(costs)->cost) * unit * (1.0 - 0x1p-50);
 }
 
+// The cheapest path of each of the cheapest homotopy classes on a map, pulled taut in its class, for points and discs.
+
+constexpr double usual_stretch = 1.5;
+
+OccupancyMap with_cells(const OccupancyMap& map, const Bitmap& blocked) {
+  OccupancyMap other;
+  other.blocked = blocked;
+  other.cell = map.cell;
+  other.origin = map.origin;
+  other.yaw_rad = map.yaw_rad;
+  return other;
+}
+
+class Routes {
+ public:
+  Routes(const RouteRule& route, const RoutesAsked& asked, const Execution& execution)
+      : asked_(asked),
+        execution_(execution),
+        stretch_(route.stretch.value_or(usual_stretch)),
+        hole_(route.hole.value_or(2.0 * asked.problem.robot.radius)),
+        cuts_(asked.wide, hole_ / asked.map.cell * (1.0 - 1e-12), execution),
+        closed_(with_cells(asked.map, asked.closed)),
+        world_(asked.distances != nullptr ? GridWorld(closed_, asked.problem.reach(), *asked.distances)
+                                          : GridWorld(closed_, asked.problem.reach(), execution, MapMilestones::none)) {
+    if (asked.problem.reach() > 0.0) {
+      holes_.emplace(with_cells(asked.map, cuts_.cells()), 0.0, execution, MapMilestones::none);
+    }
+  }
+
+  /// The cheapest first. plain: found where no other ways are asked; it stands for its class where it is as cheap.
+  std::vector<AlternativePath> find(std::size_t count, const Path<Vec2>& plain) {
+    std::vector<AlternativePath> paths;
+    if (auto path = verified(plain)) paths.push_back(std::move(*path));
+    for (const ClassPath& way : over_cells(count)) {
+      if (auto path = verified(pulled_between_cells(
+              path_over_cells(asked_.map, asked_.problem.start, way.cells, asked_.problem.goal)))) {
+        paths.push_back(std::move(*path));
+      }
+    }
+    std::ranges::stable_sort(paths, [](const AlternativePath& a, const AlternativePath& b) { return a.cost < b.cost; });
+    while (!paths.empty() && paths.back().cost > stretch_ * paths.front().cost) paths.pop_back();
+    keep_one_a_class(paths);
+    if (paths.size() > count) paths.resize(count);
+    return paths;
+  }
+
+  std::vector<MapHole> named(const std::vector<AlternativePath>& paths) const {
+    std::set<std::int32_t> ids;
+    for (const AlternativePath& path : paths) {
+      for (const std::int32_t letter : path.passed) ids.insert(std::abs(letter));
+    }
+    std::vector<MapHole> holes;
+    for (const std::int32_t id : ids) {
+      const HoleCuts::Hole& cells = cuts_.holes()[as_whole<std::size_t>(id - 1)];
+      const Box box{{1.0 * cells.low.x, 1.0 * cells.low.y}, {cells.high.x + 1.0, cells.high.y + 1.0}};
+      holes.push_back({as_whole<std::uint32_t>(id), world_box(asked_.map, box)});
+    }
+    return holes;
+  }
+  std::uint64_t expanded() const { return expanded_; }
+  double hole() const { return hole_; }
+
+ private:
+  std::vector<ClassPath> over_cells(std::size_t count) {
+    const auto joined = [&](Vec2 place) {
+      return cells_joined_to(asked_.map, asked_.wide, asked_.problem.reach(), place, execution_);
+    };
+    // Over cells a way is longer than pulled taut, by up to 1 / cos(pi / 8): so much more may be within the stretch.
+    constexpr double longer = 1.0824;
+    const ClassChoice choice{count, stretch_ * longer};
+    for (const Cell goal : joined(asked_.problem.goal)) {
+      const PriceField::Goal goals[] = {{goal}};
+      for (const Cell start : joined(asked_.problem.start)) {
+        const Cell towards[] = {start};
+        PriceField field(asked_.weights, goals, towards, execution_);
+        auto found = cheapest_classes(asked_.weights, field, cuts_, start, goal, choice, execution_);
+        expanded_ += field.expanded();
+        if (!found.empty()) return found;
+      }
+    }
+    return {};
+  }
+
+  double cost(Vec2 a, Vec2 b) const { return asked_.prices.cost ? asked_.prices.cost(a, b) : distance(a, b); }
+  std::vector<std::int32_t> word(const Path<Vec2>& path) const {
+    Path<Vec2> in_cells;
+    for (const Vec2 p : path) in_cells.push_back(map_point(asked_.map, p));
+    return cuts_.word(in_cells);
+  }
+  bool keeps_off_holes(Vec2 a, Vec2 b) const {
+    GridWorld::Query query;
+    return !holes_ || holes_->is_free_motion(a, b, query);
+  }
+
+  /// In its class: where pulling the whole leads over a hole, its halves are pulled.
+  Path<Vec2> pulled(const Path<Vec2>& path) const {
+    GridWorld::Query query;
+    const PricedLegs legs{[this](Vec2 a, Vec2 b) { return cost(a, b); },
+                          [&](Vec2 a, Vec2 b) { return world_.is_free_motion(a, b, query) && keeps_off_holes(a, b); },
+                          asked_.map.cell};
+    const Path<Vec2> whole = priced_taut(path, legs, execution_);
+    if (path.size() < 3 || word(whole) == word(path)) return whole;
+    if (path.size() < 4) return path;
+    const auto half = path.begin() + static_cast<std::ptrdiff_t>(path.size() / 2);
+    Path<Vec2> both = pulled({path.begin(), half + 1});
+    const Path<Vec2> rest = pulled({half, path.end()});
+    both.insert(both.end(), rest.begin() + 1, rest.end());
+    Path<Vec2> again = priced_taut(both, legs, execution_);
+    return word(again) == word(both) ? again : both;
+  }
+
+  /// A disc may stand where the middle of its cell may not be: the legs that join it to the cells stay as they are.
+  Path<Vec2> pulled_between_cells(const Path<Vec2>& raw) const {
+    const bool first = raw.size() > 2 && !keeps_off_holes(raw[0], raw[1]);
+    const bool last = raw.size() > 3 && !keeps_off_holes(raw[raw.size() - 2], raw.back());
+    if (!first && !last) return pulled(raw);
+    Path<Vec2> path = pulled({raw.begin() + (first ? 1 : 0), raw.end() - (last ? 1 : 0)});
+    if (first) path.insert(path.begin(), raw.front());
+    if (last) path.push_back(raw.back());
+    return path;
+  }
+
+  /// none: not free between an end and the middle of its cell.
+  std::optional<AlternativePath> verified(Path<Vec2> way) const {
+    AlternativePath path;
+    path.path = std::move(way);
+    path.passed = word(path.path);
+    const Verification verdict = verify_on_map(asked_.map, path.path, verify_options(asked_.problem), execution_);
+    if (!verdict.verified) return std::nullopt;
+    path.length = verdict.length;
+    path.min_clearance = verdict.min_clearance;
+    if (asked_.parts) {
+      for (std::size_t i = 1; i < path.path.size(); ++i) {
+        const PriceParts leg = asked_.parts(path.path[i - 1], path.path[i]);
+        path.price.clearance += leg.clearance;
+        path.price.areas += leg.areas;
+      }
+    }
+    path.cost = path.length + path.price.sum();
+    return path;
+  }
+
+  /// The cheapest, by the judge's cuts as well as by those that answers tell. Only the path that was found without
+  /// alternatives is of another one's class.
+  void keep_one_a_class(std::vector<AlternativePath>& paths) const {
+    std::vector<Path<Vec2>> all;
+    for (const AlternativePath& path : paths) all.push_back(path.path);
+    const ClassRule rule{asked_.problem.reach(), hole_};
+    JudgedClasses judged = judged_classes(closed_, rule, all, execution_);
+    for (auto* classes : {&judged.classes, &judged.told}) {
+      while (const auto same = same_class(*classes)) {
+        const auto dearer = static_cast<std::ptrdiff_t>(same->second);
+        paths.erase(paths.begin() + dearer);
+        for (auto* list : {&judged.classes, &judged.told}) list->erase(list->begin() + dearer);
+      }
+    }
+    if (paths.size() + 1 < all.size()) throw std::logic_error("two alternatives are of one class by the judge's cuts");
+  }
+
+  const RoutesAsked& asked_;
+  const Execution& execution_;
+  double stretch_;
+  double hole_;
+  HoleCuts cuts_;
+  OccupancyMap closed_;
+  GridWorld world_;                 // of the body's middle
+  std::optional<GridWorld> holes_;  // what makes classes, to a point; none: world_ says it
+  std::uint64_t expanded_ = 0;
+};
+
 }  // namespace
 
-WaysOverCells::WaysOverCells(const OccupancyMap& map, const WallProblem& problem, const Bitmap& closed,
-                             const Bitmap& wide, Diagonal diagonal, LegPrices prices, const Execution& execution,
-                             KeptWays* kept)
-    : map_(map),
-      problem_(problem),
-      closed_(closed),
-      wide_(wide),
-      execution_(execution),
-      prices_(std::move(prices)),
-      kept_(kept),
-      weights_(kept != nullptr ? kept->weights()
-               : prices_.step  ? own_weights_.emplace(wide, prices_.step, execution)
-                               : own_weights_.emplace(wide, diagonal, execution)) {}
-
-bool WaysOverCells::stands_free(Vec2 place) const { return stands_free_on_map(map_, problem_, place, execution_); }
-
-std::uint64_t WaysOverCells::leg_cost(Vec2 a, Vec2 b) const {
-  const double cost = prices_.cost ? prices_.cost(a, b) : distance(a, b);
-  return static_cast<std::uint64_t>(std::ceil(cost / map_.cell * static_cast<double>(units_a_cell)));
-}
-
-std::vector<WaysOverCells::Entry> WaysOverCells::entries(Vec2 place, std::size_t goal) const {
-  const auto own = cell_at(map_, place);
-  if (!own) return {};
-  std::vector<Entry> entries;
-  for (const Cell cell : cells_joined_to(map_, wide_, problem_.reach(), place, *own, execution_)) {
-    if (!wide_.test(cell.x, cell.y)) entries.push_back(entry(place, cell, goal));
-  }
-  return entries;
-}
-
-std::vector<WaysOverCells::Entry> WaysOverCells::region(Vec2 place, double radius, std::size_t goal) const {
-  std::vector<Entry> found;
-  if (cell_at(map_, place) && stands_free(place)) found = entries(place, goal);
-  const Vec2 centre = map_point(map_, place);
-  const double reach = radius / map_.cell;
-  const auto rows = std::pair{std::max(0.0, std::floor(centre.y - reach)),
-                              std::min<double>(map_.height(), std::ceil(centre.y + reach))};
-  for (double row = rows.first; row < rows.second; ++row) {
-    execution_.check();
-    const double high = row + 0.5 - centre.y;
-    if (std::abs(high) > reach) continue;
-    const double half = std::sqrt(reach * reach - high * high);
-    const double first = std::max(0.0, std::ceil(centre.x - half - 0.5));
-    const double last = std::min<double>(map_.width() - 1.0, std::floor(centre.x + half - 0.5));
-    for (double column = first; column <= last; ++column) {
-      const Cell cell{static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row)};
-      const Vec2 at = cell_centre(map_, cell);
-      if (!wide_.test(cell.x, cell.y) && distance(at, place) <= radius) found.push_back({cell, 0, at, goal});
-    }
-    execution_.reserve(found.size() * sizeof(Entry));
-  }
-  return found;
-}
-
-std::optional<WaysOverCells::Way> WaysOverCells::cheapest(Vec2 from, std::span<const Entry> ends) {
-  const auto there = std::ranges::find_if(ends, [&](const Entry& end) { return end.place == from; });
-  if (there != ends.end()) return Way{{}, 0, from, *there};
-  const std::vector<Entry> begins = entries(from);
-  std::vector<PriceField::Goal> goals;
-  for (const Entry& end : ends) goals.push_back({end.cell, end.cost});
-  std::vector<Cell> towards;
-  for (const Entry& begin : begins) towards.push_back(begin.cell);
-  if (goals.empty() || begins.empty()) return std::nullopt;
-  std::optional<PriceField> own;
-  PriceField& field =
-      kept_ != nullptr ? kept_->field(goals, towards, execution_) : own.emplace(weights_, goals, towards, execution_);
-  const std::uint64_t before = field.expanded();
-  std::optional<Way> best;
-  Cell first;
-  for (const Entry& begin : begins) {
-    const auto cost = field.cost(begin.cell, execution_);
-    if (!cost || (best && best->cost <= *cost + begin.cost)) continue;
-    best = Way{{}, *cost + begin.cost, from, {}};
-    first = begin.cell;
-  }
-  expanded_ += field.expanded() - before;
-  if (!best) return std::nullopt;
-  auto [cells, end] = field.path(first, execution_);
-  best->cells = std::move(cells);
-  best->end = ends[end];
-  return best;
-}
-
-std::vector<std::optional<std::uint64_t>> WaysOverCells::costs(std::span<const Vec2> from,
-                                                               std::span<const Entry> ends) {
-  std::vector<PriceField::Goal> goals;
-  for (const Entry& end : ends) goals.push_back({end.cell, end.cost});
-  PriceField field(weights_, goals, {}, execution_);
-  std::vector<std::optional<std::uint64_t>> least;
-  for (const Vec2 place : from) {
-    std::optional<std::uint64_t>& best = least.emplace_back();
-    for (const Entry& begin : entries(place)) {
-      const auto cost = field.cost(begin.cell, execution_);
-      if (cost && (!best || *cost + begin.cost < *best)) best = *cost + begin.cost;
-    }
-    if (std::ranges::any_of(ends, [&](const Entry& end) { return end.place == place; })) best = 0;
-  }
-  expanded_ += field.expanded();
-  return least;
-}
-
-Bitmap WaysOverCells::cells_from_start(StepWeights& weights, std::span<const PriceField::Goal> from) {
-  PriceField field(weights, from, {}, execution_);
-  field.settle_all(execution_);
-  expanded_ += field.expanded();
-  Bitmap joined = cell_bitmap(map_.width(), map_.height(), execution_);
-  for (std::uint32_t y = 0; y < joined.height(); ++y) {
-    if (y % 16 == 0) execution_.check();
-    for (std::uint32_t x = 0; x < joined.width(); ++x) {
-      if (field.reached({x, y})) joined.set(x, y);
-    }
-  }
-  return joined;
-}
-
-std::optional<WaysOverCells::Nearest> WaysOverCells::nearest_place(Vec2 to) {
-  if (!joined_) {
-    std::vector<PriceField::Goal> from;
-    for (const Entry& begin : entries(problem_.start)) from.push_back({begin.cell});
-    StepWeights lengths(wide_, StepRule::four, execution_);
-    joined_ = cells_from_start(lengths, from);
-  }
-  const Vec2 in_map = map_point(map_, to);
-  constexpr double off = 1e-6;  // cells: what planners keep is far less
-  const bool is_point = problem_.reach() == 0.0;
-  // A point is wherever its cell is. A disc is at the middles, and leaves those that are nearest to be nearer.
-  const auto distance_of = [&](Cell c) { return distance(in_map, is_point ? nearest_in(c, in_map, off) : middle(c)); };
-  double least = std::numeric_limits<double>::infinity();
-  for_each_set(*joined_, execution_, [&](Cell c) { least = std::min(least, distance_of(c)); });
-  if (std::isinf(least)) return std::nullopt;
-  const double near = is_point ? least : least + 1.5;
-  std::vector<std::pair<double, Cell>> candidates;
-  for_each_set(*joined_, execution_, [&](Cell c) {
-    if (const double d = distance_of(c); d <= near) candidates.emplace_back(d, c);
-  });
-  std::ranges::stable_sort(candidates, [](const auto& a, const auto& b) { return a.first < b.first; });
-  constexpr std::size_t most = 16;
-  if (candidates.size() > most) candidates.resize(most);
-  std::optional<Nearest> best;
-  for (const auto& candidate : candidates) {
-    execution_.check();
-    std::optional<Nearest> place;
-    if (is_point) {
-      const Vec2 at = world_point(map_, nearest_in(candidate.second, in_map, off));
-      place = Nearest{at, candidate.second, distance(at, to)};
-    } else {
-      place = slid(to, candidate.second);
-    }
-    if (place && (!best || place->distance < best->distance)) best = place;
-  }
-  return best;
-}
-
-/// From the middle of a cell straight towards a place, as far as the body gets; then as near as straight legs from that
-/// middle get by small moves.
-std::optional<WaysOverCells::Nearest> WaysOverCells::slid(Vec2 to, Cell from) const {
-  const Vec2 centre = cell_centre(map_, from);
-  const auto may = [&](Vec2 place) {
-    return stands_free(place) && is_joined(map_, problem_.reach(), place, from, execution_);
-  };
-  if (!may(centre)) return std::nullopt;
-  double share = 0.0;
-  const auto at = [&](double t) { return centre + t * (to - centre); };
-  if (may(to)) {
-    share = 1.0;
-  } else {
-    for (double part = 0.5; part > 1e-4; part *= 0.5) {
-      if (may(at(share + part))) share += part;
-    }
-  }
-  Vec2 best = share == 1.0 ? to : at(share);
-  for (double step = 0.5 * map_.cell; step > 1e-3 * map_.cell;) {
-    execution_.check();
-    bool moved = false;
-    for (const auto& [dx, dy] : cell_steps) {
-      const Vec2 place = best + Vec2{step * dx, step * dy};
-      if (!(distance(place, to) < distance(best, to)) || distance(place, centre) > 2.0 * map_.cell || !may(place))
-        continue;
-      best = place;
-      moved = true;
-      break;
-    }
-    if (!moved) step *= 0.5;
-  }
-  return Nearest{best, from, distance(best, to)};
-}
-
-double WaysOverCells::distance_bound(Vec2 to) {
-  const auto start = cell_at(map_, problem_.start);
-  const double radius = problem_.reach() / map_.cell - half_diagonal;
-  const bool is_point = problem_.reach() == 0.0;
-  const Bitmap may_be = is_point ? closed_ : blocked_for_disc(closed_, radius, execution_);
-  StepWeights steps(may_be, is_point ? StepRule::four : StepRule::eight_squeezing, execution_);
-  const PriceField::Goal from[] = {{*start}};
-  const Bitmap joined = cells_from_start(steps, from);
-  const Vec2 in_map = map_point(map_, to);
-  double least = std::numeric_limits<double>::infinity();
-  for_each_set(joined, execution_,
-               [&](Cell c) { least = std::min(least, distance(in_map, nearest_in(c, in_map, 0.0))); });
-  constexpr double rounding = 1e-12;
-  const double bound = least * map_.cell * (1.0 - rounding) - rounding * (std::abs(to.x) + std::abs(to.y));
-  return std::isinf(least) ? 0.0 : std::max(0.0, bound);
-}
-
 GoalChoice choose_goal(WaysOverCells& ways, const OccupancyMap& map, const WallProblem& problem,
-                       std::span<const Vec2> via, bool open_end) {
+                       std::span<const std::vector<double>> via, bool open_end) {
   return Choosing(ways, map, problem, open_end).chosen(via);
 }
 
@@ -468,24 +425,31 @@ void take_bound_of_choice(Answer& answer, std::optional<double> bound) {
   if (answer.ended_by == "gap") answer.ended_by = "goal_gap";
 }
 
-Path<Vec2> cut_at_region(Path<Vec2> path, Vec2 place, double radius) {
-  if (distance(path.front(), place) <= radius) return {path.front()};
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    const Vec2 from = path[i - 1] - place;
-    const Vec2 leg = path[i] - path[i - 1];
-    const double a = dot(leg, leg);
-    const double b = dot(from, leg);
-    const double inside = b * b - a * (dot(from, from) - radius * radius);
-    if (!(a > 0.0) || !(inside > 0.0) || b >= 0.0) continue;
-    double share = (-b - std::sqrt(inside)) / a;
-    constexpr double step_in = 1e-12;
-    for (double in = step_in; distance(path[i - 1] + share * leg, place) > radius && in < 1e-3; in *= 4.0) share += in;
-    if (!(share < 1.0) || distance(path[i - 1] + share * leg, place) > radius) continue;
-    path.resize(i);
-    path.push_back(path[i - 1] + share * leg);
-    return path;
+void take_alternatives(Answer& answer, const RouteRule& route, const RoutesAsked& asked, const Execution& execution) {
+  const GoalRule& rule = asked.problem.rule;
+  if (!rule.visit.empty() || rule.back || rule.region) {
+    throw UsageError(
+        "@alternatives: are of ways from a start to a goal; places to visit and regions leave no such two");
   }
-  return path;
+  if (asked.problem.start == asked.problem.goal) return;
+  const StageTimer timer(execution, "alternatives", answer.seconds.optimise, asked.map.blocked.size());
+  Routes routes(route, asked, execution);
+  std::vector<AlternativePath> paths = routes.find(std::size_t{1} + *route.alternatives, answer.path);
+  answer.counters.expanded += routes.expanded();
+  if (paths.empty()) return;
+  answer.holes = routes.named(paths);
+  AlternativePath& own = paths.front();
+  answer.path = std::move(own.path);
+  answer.length = own.length;
+  answer.min_clearance = own.min_clearance;
+  answer.passed = std::move(own.passed);
+  if (asked.parts) {
+    answer.price = own.price;
+    answer.cost = own.cost;
+  }
+  paths.erase(paths.begin());
+  answer.alternatives = std::move(paths);
+  if (!answer.passed.empty() || !answer.alternatives.empty()) answer.hole_size = routes.hole();
 }
 
 }  // namespace warren

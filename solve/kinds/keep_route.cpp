@@ -56,12 +56,6 @@ OnRoute nearest_on(const State& a, const State& b, const State& to, bool of_arm)
   return found;
 }
 
-RecordedAnswer path_of(const std::vector<State>& states, const Question& question) {
-  RecordedAnswer path = recorded(std::span(states));
-  path.problem = question;
-  return path;
-}
-
 /// Of the route's rest, as it is now: how long, how free; none: it is not free.
 struct Cost {
   Verdict verdict;
@@ -80,7 +74,8 @@ std::optional<Cost> cost_now(const std::vector<State>& states, const Scene& scen
     asked.goal_pose.reset();
   }
   asked.robot = problem.robot;  // as options have made it
-  const RecordedAnswer path = path_of(states, asked);
+  RecordedAnswer path = recorded(std::span(states));
+  path.problem = asked;
   Cost cost;
   cost.verdict = verifying_kind(scene, asked).verify(scene, asked, path, execution);
   if (!cost.verdict.verified) return std::nullopt;
@@ -144,7 +139,7 @@ void take_end(Answer& answer, const State& place, const PathEnd& end) {
 }
 
 void take(Answer& answer, const std::vector<State>& states, const Cost& cost) {
-  const RecordedAnswer path = path_of(states, {});
+  const RecordedAnswer path = recorded(std::span(states));
   answer.outcome = Outcome::solved;
   answer.stop_reason.reset();
   answer.verified = true;
@@ -217,7 +212,8 @@ void keep_to_route(Answer& answer, const Scene& scene, const Question& question,
     const auto price = judged_price(scene, problem.prices, problem.robot, recorded(answer), execution);
     told.new_cost = answer.length + price.value_or(PriceParts{}).sum();
   }
-  const double gain = rule.unless_gain.value_or(usual_unless_gain);
+  constexpr double usual_gain = 0.05;
+  const double gain = rule.unless_gain.value_or(usual_gain);
   told.kept = kept && (!told.new_cost || (1.0 - gain) * kept->sum <= *told.new_cost);
   // A tolerance asks for the nearest place that can be reached.
   if (end && problem.rule.tolerance && answer.verified && answer.goal_reached &&

@@ -14,8 +14,6 @@
 
 namespace warren {
 
-inline constexpr double usual_unless_gain = 0.05;
-
 /// What is left of a route for a robot that stands at `start`: from there to the route's place nearest to it, then on.
 /// Of places that are as near but for `slack` the first counts, so that nobody jumps to where the route comes by again.
 /// is_cut: may the route begin within one of its motions? else it begins with the state after. States are numbers of

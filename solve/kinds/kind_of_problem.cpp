@@ -26,6 +26,12 @@ bool takes(const SolveKind& kind, const PlannerChoice& choice, AskedWord word) {
   return choice.words.has(word) || (word == AskedWord::visit && !kind.unmade);
 }
 
+/// Does any planner of the kind?
+template <class Word>
+bool is_taken(const SolveKind& kind, Word word) {
+  return std::ranges::any_of(kind.planners, [&](const PlannerChoice& choice) { return takes(kind, choice, word); });
+}
+
 /// Does the planner of this kind take all of it? solve() keeps routes, whoever plans.
 bool takes_all(const SolveKind& kind, const PlannerChoice& choice, AskedWords words, const SolveOptions& options) {
   const std::vector<AskedWord> asked = words.members();
@@ -106,8 +112,7 @@ std::string takers_text(Word word, const std::vector<const SolveKind*>& fitting,
   if (all.empty()) return "no planner of this version takes it";
   std::vector<std::string_view> problems;
   for (const SolveKind& kind : solve_kinds()) {
-    if (std::ranges::any_of(kind.planners, [&](const PlannerChoice& choice) { return takes(kind, choice, word); }))
-      problems.push_back(kind.problem);
+    if (is_taken(kind, word)) problems.push_back(kind.problem);
   }
   return fmt::format("{} for {}", takers_text(all), listed(problems));
 }
@@ -137,10 +142,7 @@ void refuse_ignored_words(const Asked& asked, const SolveKind& chosen, PlannerKi
   std::vector<AskedWord> ignored = asked.words.members();
   std::erase_if(ignored, [&](AskedWord word) { return takes_all(chosen, *choice_in(chosen, planner), {word}, {}); });
   std::stable_partition(ignored.begin(), ignored.end(), [&](AskedWord word) {
-    return std::ranges::none_of(fitting, [&](const SolveKind* kind) {
-      return std::ranges::any_of(kind->planners,
-                                 [&](const PlannerChoice& choice) { return takes(*kind, choice, word); });
-    });
+    return std::ranges::none_of(fitting, [&](const SolveKind* kind) { return is_taken(*kind, word); });
   });
   for (const AskedWord word : ignored) {
     const bool is_factor = word == AskedWord::keep_out_factor || word == AskedWord::unknown_factor;
@@ -275,8 +277,6 @@ bool planner_takes(PlannerKind planner, Option option, const Scene& scene, const
     return choice != nullptr && takes(*kind, *choice, option);
   });
 }
-
-bool planner_takes(PlannerKind planner, AskedWord word) { return std::ranges::count(takers_of(word), planner) > 0; }
 
 std::vector<PlannerKind> planners_there_are() {
   return planners_where([](const SolveKind&, const PlannerChoice&) { return true; });

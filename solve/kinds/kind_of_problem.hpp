@@ -38,11 +38,8 @@ namespace warren {
 // asked, and what the judge keeps of the scene. One type a World; which, only the kind knows that made it.
 
 /// Any number of threads may ask, each with its scratch.
-struct RoadmapSession {
-  RoadmapSession() = default;
+struct RoadmapSession : NotCopied {
   virtual ~RoadmapSession() = default;
-  RoadmapSession(const RoadmapSession&) = delete;
-  RoadmapSession& operator=(const RoadmapSession&) = delete;
   /// What searches have learnt of the edges; while nobody asks.
   virtual std::span<const std::uint64_t> edge_states() const = 0;
   /// Length of the motion between two states of the roadmap.
@@ -170,8 +167,6 @@ const SolveKind& verifying_kind(const Scene& scene, const Question& question);
 bool planner_takes(PlannerKind planner, Option option);
 /// The same for this problem alone.
 bool planner_takes(PlannerKind planner, Option option, const Scene& scene, const Question& question);
-/// Does it respect the word for some kind of problem?
-bool planner_takes(PlannerKind planner, AskedWord word);
 
 /// The planners that solve some kind of problem, in their order.
 std::vector<PlannerKind> planners_there_are();

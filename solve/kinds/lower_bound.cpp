@@ -18,8 +18,7 @@
 #include "solve/kinds/solve_steps.hpp"
 #include "solve/question/question_of_arm.hpp"
 #include "worlds/arms/arm_kinematics.hpp"
-#include "worlds/poses/dubins_curve.hpp"
-#include "worlds/poses/reeds_shepp_curve.hpp"
+#include "worlds/poses/steering_curve.hpp"
 #include "worlds/prices/map_prices.hpp"
 #include "worlds/rasters/lattice_polygons.hpp"
 
@@ -58,7 +57,8 @@ std::optional<PlaneObstacles> bounding_obstacles(const Scene& scene, Vec2 start,
 std::optional<double> shortest_way(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal, double radius,
                                    const Execution& execution) {
   if (radius > 0.0) {
-    const double length = shortest_disc_path(obstacles, start, goal, radius, execution).lower_bound;
+    const DiscGround ground(obstacles, execution);
+    const double length = shortest_disc_path(ground, start, goal, radius, execution).lower_bound;
     return std::isfinite(length) ? std::optional(length) : std::nullopt;
   }
   const VisibilityOptions options{.lazy = true};

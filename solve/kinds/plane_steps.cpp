@@ -9,11 +9,11 @@
 #include "core/base/error.hpp"
 #include "planners/grid/grid_search.hpp"
 #include "planners/vertical_cells/cell_decomposition.hpp"
-#include "scenes/files/moving_ai_io.hpp"
+#include "scenes/files/plane_formats_io.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "solve/kinds/solve_steps.hpp"
 #include "spatial/maps/distance_field.hpp"
-#include "verify/judges/verify_map.hpp"
+#include "verify/judges/verify_point.hpp"
 
 namespace warren {
 namespace {
@@ -75,14 +75,6 @@ std::size_t corner_count(const Scene& scene) {
   return corners;
 }
 
-bool stand_on_seams(const SolveRequest& request, const WallProblem& problem, Answer& answer) {
-  const bool goal_blocked = stands_on_seam(request.scene, problem.goal);
-  const bool start_blocked = stands_on_seam(request.scene, problem.start);
-  if (goal_blocked) answer.outcome = Outcome::goal_blocked;
-  if (start_blocked) answer.outcome = Outcome::start_blocked;
-  return start_blocked || goal_blocked;
-}
-
 void describe_plane_planner(Answer& answer, const SolveRequest& request, const WallProblem& problem,
                             const SearchChoice& search) {
   answer.problem = problem.general();
@@ -96,11 +88,6 @@ void stay(Answer& answer, const WallProblem& problem) {
   answer.outcome = Outcome::solved;
   answer.path = {problem.start, problem.goal};
   answer.path_figures.clear();
-}
-
-PlaneObstacles indexed_obstacles(const SolveRequest& request, Answer& answer) {
-  const StageTimer timer(request.execution, "index", answer.seconds.index, request.scene.polygons.size());
-  return plane_obstacles(request.scene, request.execution);
 }
 
 void without_clashes(const SolveRequest& request, const std::function<void()>& plan) {
@@ -140,17 +127,6 @@ bool starts_on_water(const OccupancyMap& map, Vec2 start) {
   return cell && !map.water.empty() && map.water.test(cell->x, cell->y);
 }
 
-Outcome settled_on_map(Outcome outcome, const OccupancyMap& map, const WallProblem& problem,
-                       const Execution& execution) {
-  const auto is_free = [&](Vec2 p) { return cell_at(map, p) && stands_free_on_map(map, problem, p, execution); };
-  return settled_ends(
-      outcome, [&] { return is_free(problem.start); },
-      [&] {
-        const bool stays_on_water = starts_on_water(map, problem.start) && cell_at(map, problem.goal);
-        return stays_on_water || is_free(problem.goal);
-      });
-}
-
 bool provably_apart(const OccupancyMap& map, const Bitmap& closed, const WallProblem& problem,
                     const Execution& execution) {
   const auto start = cell_at(map, problem.start);
@@ -178,14 +154,16 @@ bool is_joined(const OccupancyMap& map, double reach, Vec2 p, Cell cell, const E
   return verify_on_map(map, leg, {.clearance = reach}, execution).verified;
 }
 
-std::vector<Cell> cells_joined_to(const OccupancyMap& map, const Bitmap& wide, double reach, Vec2 p, Cell own,
+std::vector<Cell> cells_joined_to(const OccupancyMap& map, const Bitmap& wide, double reach, Vec2 p,
                                   const Execution& execution) {
-  if (reach == 0.0 || (!wide.test(own.x, own.y) && is_joined(map, reach, p, own, execution))) return {own};
+  const auto own = cell_at(map, p);
+  if (!own) return {};
+  if (reach == 0.0 || (!wide.test(own->x, own->y) && is_joined(map, reach, p, *own, execution))) return {*own};
   constexpr std::int64_t around = 2;
   constexpr std::size_t most = 3;  // each may cost a search
   std::vector<std::pair<double, Cell>> free;
-  for (std::int64_t y = std::int64_t{own.y} - around; y <= std::int64_t{own.y} + around; ++y) {
-    for (std::int64_t x = std::int64_t{own.x} - around; x <= std::int64_t{own.x} + around; ++x) {
+  for (std::int64_t y = std::int64_t{own->y} - around; y <= std::int64_t{own->y} + around; ++y) {
+    for (std::int64_t x = std::int64_t{own->x} - around; x <= std::int64_t{own->x} + around; ++x) {
       if (x < 0 || y < 0 || x >= map.width() || y >= map.height() || wide.holds(x, y)) continue;
       const Cell cell{static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)};
       if (is_joined(map, reach, p, cell, execution)) free.emplace_back(distance(p, cell_centre(map, cell)), cell);
@@ -218,24 +196,6 @@ Path<Vec2> path_over_cells(const OccupancyMap& map, Vec2 start, std::span<const 
   }
   append(goal);
   return path;
-}
-
-void verify_solved_on_map(Answer& answer, const OccupancyMap& map, const WallProblem& problem, bool over_cells,
-                          const Execution& execution) {
-  if (answer.outcome != Outcome::solved) return;
-  const StageTimer timer(execution, "verify", answer.seconds.verify, answer.path.size());
-  const Verification verification = verify_on_map(map, answer.path, verify_options(problem), execution);
-  if (!verification.verified) {
-    const Violation violation = verification.first_violation.value_or(Violation{});
-    const bool at_an_end = violation.leg == 0 || violation.leg + 2 == answer.path.size();
-    // What only rounding keeps off a cell that it touches is blocked.
-    answer.outcome = settled_on_map(Outcome::start_blocked, map, problem, execution);
-    const bool may_miss = over_cells && problem.reach() > 0.0 && at_an_end;
-    if (answer.outcome == Outcome::not_connected && !may_miss) fail_verification(answer, violation);
-    answer.path.clear();
-    return;
-  }
-  take_verdict(answer, verification);
 }
 
 }  // namespace warren

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the planners for a point or disc in the plane share. Among polygons and walls (solve_plane.cpp,
-// solve_visibility.cpp): the question, and how their answers tell it. On an occupancy map (solve_map.cpp): the
-// question, paths over cells, and the verification against closed cells.
+// What the planners for a point or disc in the plane share. Among polygons and walls (solve_plane.cpp): the
+// question, and how their answers tell it. On an occupancy map (solve_map.cpp): the question, paths over cells, and the
+// verification against closed cells.
 #pragma once
 
 #include <functional>
@@ -20,8 +20,7 @@
 
 namespace warren {
 
-/// The planners visibility and voronoi, as SolveKind::solve.
-Answer solve_by_visibility(const SolveRequest& request);
+/// The planner voronoi, as SolveKind::solve.
 Answer solve_on_medial_axis(const SolveRequest& request);
 
 /// The problem of a planner that plans for a point which may touch obstacles, of visibility also for what keeps a
@@ -31,9 +30,6 @@ WallProblem touching_problem(const SolveRequest& request);
 /// Corners of polygons and ends of walls, as the file has them.
 std::size_t corner_count(const Scene& scene);
 
-/// Does start or goal stand on a seam, strictly inside of a polygon that was cut there? Says so in the answer.
-bool stand_on_seams(const SolveRequest& request, const WallProblem& problem, Answer& answer);
-
 /// Problem, planner, search and seed, as the answer repeats them.
 void describe_plane_planner(Answer& answer, const SolveRequest& request, const WallProblem& problem,
                             const SearchChoice& search);
@@ -41,9 +37,6 @@ void describe_plane_planner(Answer& answer, const SolveRequest& request, const W
 /// Of a goal that is the start, which stands free: solved without a move, whatever the planner found. Figures of its
 /// path are dropped.
 void stay(Answer& answer, const WallProblem& problem);
-
-/// The scene's obstacles for planners; the time is that of the stage `index`.
-PlaneObstacles indexed_obstacles(const SolveRequest& request, Answer& answer);
 
 /// How cells are passed, and how an answer repeats it.
 CellOptions cell_options(const SolveOptions& options, const SearchChoice& search);
@@ -75,9 +68,6 @@ Bitmap closed_cells(const OccupancyMap& map, Vec2 start);
 bool stands_free_on_map(const OccupancyMap& map, const WallProblem& problem, Vec2 p, const Execution& execution);
 /// Then its goal may lie there, too.
 bool starts_on_water(const OccupancyMap& map, Vec2 start);
-/// What is said of the ends where one is called blocked (solve/kinds/solve_steps.hpp): by the verification.
-Outcome settled_on_map(Outcome outcome, const OccupancyMap& map, const WallProblem& problem,
-                       const Execution& execution);
 
 /// Is it proved that no path leads from start to goal? A point between closed cells goes where cells with a common side
 /// are free. A disc's middle is nowhere where the middle of the cell is nearer than the radius less half a diagonal;
@@ -95,17 +85,12 @@ bool is_joined(const OccupancyMap& map, double reach, Vec2 p, Cell cell, const E
 
 /// The cells by whose middles a path may begin or end at p, the nearest first, one of those that steps join nearby: a
 /// point's own; a disc may fit where it stands and not at the middle of its cell, but at one of those around it. wide:
-/// where its middle may not be.
-std::vector<Cell> cells_joined_to(const OccupancyMap& map, const Bitmap& wide, double reach, Vec2 p, Cell own,
+/// where its middle may not be. None where p lies outside.
+std::vector<Cell> cells_joined_to(const OccupancyMap& map, const Bitmap& wide, double reach, Vec2 p,
                                   const Execution& execution);
 
 /// From the start over the middles of the cells where the path turns to the goal; each cell is a neighbour of the one
 /// before.
 Path<Vec2> path_over_cells(const OccupancyMap& map, Vec2 start, std::span<const Cell> cells, Vec2 goal);
-
-/// Verifies a solved answer and fills in length and clearance. A path that fails is a bug, std::logic_error; but for
-/// paths over_cells of a disc, which may fail on the way between an end and the middle of its cell: not_connected.
-void verify_solved_on_map(Answer& answer, const OccupancyMap& map, const WallProblem& problem, bool over_cells,
-                          const Execution& execution);
 
 }  // namespace warren

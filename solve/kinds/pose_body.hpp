@@ -24,8 +24,8 @@ class PoseBody : public UsualBody<PoseProblem> {
   template <class World>
   std::vector<Se2> goals(const World& world) const {
     auto query = world.make_query();
-    std::vector<Se2> poses = poses_to_meet(scene_, problem_, problem_.goal, execution_,
-                                           [&](const Se2& pose) { return world.is_free(pose, query); });
+    std::vector<Se2> poses =
+        poses_to_meet(scene_, problem_, execution_, [&](const Se2& pose) { return world.is_free(pose, query); });
     if (!problem_.any_heading()) return poses;
     const Se2 as_started{problem_.goal[0], problem_.goal[1], wrapped_angle(problem_.start.theta)};
     if (std::ranges::find(poses, as_started) == poses.end()) poses.insert(poses.begin(), as_started);

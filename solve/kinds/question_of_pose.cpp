@@ -23,30 +23,14 @@ std::vector<double> state_of(std::string_view option, const std::vector<double>&
                                fewest == 2 ? ", or X,Y for any heading" : "", state.size()));
 }
 
-bool wants_borders(const Scene& scene, const Question& question, PlannerKind planner) {
-  if (!scene.map || scene.walls.size() > 0) return false;
-  const RobotSpec robot = robot_of(scene, question);
-  if (planner == PlannerKind::voronoi || (planner == PlannerKind::grid && robot.kind != RobotKind::car)) return false;
-  return !is_round(robot);
-}
-
-Path<Se2> without_half_turns(const Path<Se2>& path) {
-  constexpr double most_rad = 3.0;
-  Path<Se2> cut;
-  for (const Se2& pose : path) {
-    if (!cut.empty() && std::abs(turn_between(cut.back().theta, pose.theta)) > most_rad) {
-      cut.push_back(interpolate(Se2(cut.back()), pose, 0.5));
-    }
-    cut.push_back(pose);
-  }
-  return cut;
-}
-
 }  // namespace
 
 std::optional<Scene> planned_copy(const Scene& scene, const Question& question, PlannerKind planner,
                                   const Execution& execution) {
-  if (!wants_borders(scene, question, planner)) return std::nullopt;
+  if (!scene.map || scene.walls.size() > 0 || planner == PlannerKind::voronoi) return std::nullopt;
+  const RobotSpec robot = robot_of(scene, question);
+  const bool looks_at_cells = planner == PlannerKind::grid && robot.kind != RobotKind::car;
+  if (is_round(robot) || looks_at_cells) return std::nullopt;
   std::optional<Scene> copy(scene);
   add_map_walls(*copy, execution);
   return copy;
@@ -78,10 +62,11 @@ std::vector<Se2> poses_of(const std::vector<double>& state) {
   return poses;
 }
 
-std::vector<Se2> poses_of_intervals(const Scene& scene, const PoseProblem& problem, Vec2 place,
-                                    const Execution& execution) {
-  std::vector<Se2> poses;
-  if (problem.robot.outline.empty()) return poses;
+std::vector<Se2> poses_to_meet(const Scene& scene, const PoseProblem& problem, const Execution& execution,
+                               const std::function<bool(const Se2&)>& is_free) {
+  std::vector<Se2> poses = poses_of(problem.goal);
+  if (!problem.any_heading() || std::ranges::any_of(poses, is_free) || problem.robot.outline.empty()) return poses;
+  const Vec2 place = problem.goal_pose().position();
   const double room = problem.clearance + end_margin(scene, problem, execution);
   for (const HeadingInterval& fits : free_headings(scene, problem.robot.outline, place, room, execution)) {
     poses.push_back({place.x, place.y, fits.middle()});
@@ -116,29 +101,6 @@ void take_poses(Answer& answer, const Verification& verdict, std::span<const Se2
     answer.path.push_back(pose.position());
     answer.states.add(std::array{pose.x, pose.y, pose.theta});
   }
-}
-
-bool turning_stands_free(const Scene& scene, const PoseProblem& problem, const Se2& pose, const Execution& execution,
-                         const ObstacleIndex* judged) {
-  const PoseVerifyOptions options{.clearance = problem.clearance + end_margin(scene, problem, execution)};
-  return verify_se2(scene, problem.robot.outline, std::span(&pose, 1), options, execution, judged).verified;
-}
-
-void judge_turning(const Scene& scene, const PoseProblem& problem, const Path<Se2>& path, const Execution& execution,
-                   Answer& answer, const ObstacleIndex* judged) {
-  const Path<Se2> poses = without_half_turns(path);
-  const StageTimer timer(execution, "verify", answer.seconds.verify, poses.size());
-  const Verification found =
-      verify_se2(scene, problem.robot.outline, poses, verify_options(problem), execution, judged);
-  take_poses(answer, found, poses);
-}
-
-Verdict recheck_turning(const Scene& scene, const Question& question, const RecordedAnswer& answer,
-                        const Execution& execution) {
-  const PoseProblem problem = pose_problem(scene, question, turning_body);
-  check_state_width(answer, 3, turning_body);
-  return {verify_se2(scene, problem.robot.outline, poses_of(answer.states), verify_options(problem), execution),
-          problem.general()};
 }
 
 }  // namespace warren

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -54,21 +55,10 @@ PoseProblem pose_problem(const Scene& scene, const Question& options, std::strin
 
 /// The poses that will do for a state of 2 or 3 numbers: of 2 those of 16 headings, evenly turned.
 std::vector<Se2> poses_of(const std::vector<double>& state);
-/// At each interval of headings at which an outline fits there as an end, but for obstacles around all of it, the
-/// middle.
-std::vector<Se2> poses_of_intervals(const Scene& scene, const PoseProblem& problem, Vec2 place,
-                                    const Execution& execution);
-/// poses_of(), and where none of several is free those of the intervals: where all of these are blocked, every heading
-/// is.
-template <class IsFree>
-std::vector<Se2> poses_to_meet(const Scene& scene, const PoseProblem& problem, const std::vector<double>& state,
-                               const Execution& execution, const IsFree& is_free) {
-  std::vector<Se2> poses = poses_of(state);
-  if (state.size() == 3 || std::ranges::any_of(poses, is_free)) return poses;
-  const std::vector<Se2> more = poses_of_intervals(scene, problem, {state[0], state[1]}, execution);
-  poses.insert(poses.end(), more.begin(), more.end());
-  return poses;
-}
+/// Those of the goal, and where none of several is free the middle of each interval of headings at which an outline
+/// fits there as an end, but for obstacles around all of it: where all of these are blocked, every heading is.
+std::vector<Se2> poses_to_meet(const Scene& scene, const PoseProblem& problem, const Execution& execution,
+                               const std::function<bool(const Se2&)>& is_free);
 
 /// The radius of the disc around its reference point that the body holds in any heading; none: the body need not be
 /// where its reference point is.
@@ -92,24 +82,9 @@ void settle_blocked_poses(Answer& answer, const Scene& scene, const PoseProblem&
   answer.outcome = settled_ends(
       answer.outcome, [&] { return stands_free(problem.start); },
       [&] {
-        const std::vector<Se2> goals = poses_to_meet(scene, problem, problem.goal, execution, stands_free);
+        const std::vector<Se2> goals = poses_to_meet(scene, problem, execution, stands_free);
         return std::ranges::any_of(goals, stands_free);
       });
 }
-
-/// Does a polygon that may turn stand free at the pose as an end, with its clearance? `judged`, here and below: of the
-/// scene, or nullptr.
-bool turning_stands_free(const Scene& scene, const PoseProblem& problem, const Se2& pose, const Execution& execution,
-                         const ObstacleIndex* judged = nullptr);
-
-/// Verifies its path, whichever planner found it, and fills it into the answer with what is said of it. A leg of about
-/// half a turn, which could be read either way, gets a pose in its middle. A path that fails is a bug: throws
-/// std::logic_error.
-void judge_turning(const Scene& scene, const PoseProblem& problem, const Path<Se2>& path, const Execution& execution,
-                   Answer& answer, const ObstacleIndex* judged = nullptr);
-
-/// SolveKind::verify for a polygon that may turn.
-Verdict recheck_turning(const Scene& scene, const Question& question, const RecordedAnswer& answer,
-                        const Execution& execution);
 
 }  // namespace warren

@@ -20,7 +20,7 @@
 #include "core/base/trigonometry.hpp"
 #include "core/run/execution.hpp"
 #include "parallel/sort.hpp"
-#include "planners/graph/contraction.hpp"
+#include "planners/graph/hierarchy.hpp"
 #include "planners/graph/roadmap_arrays.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
@@ -28,18 +28,6 @@
 #include "solve/question/planner_choice.hpp"
 
 namespace warren {
-// Where two worlds differ: the boxes of the obstacles that only one of them has. What keeps clear of all these boxes
-// meets the same obstacles in both.
-
-/// More differences than so many are no change but another world.
-inline constexpr std::size_t most_changed_places = 4096;
-
-/// Nothing where the worlds differ in more than obstacles of the plane: in bounds, maze, map, solids or, of maps, in
-/// size and place; or in more obstacles than most_changed_places. O(n log n) for n obstacles.
-std::optional<std::vector<Box>> changed_places(const Scene& before, const Scene& now, const Execution& execution);
-
-/// Does a box come closer than `reach` to one of these? Boxes that touch do.
-bool comes_near(const std::vector<Box>& places, const Box& box, double reach);
 
 namespace detail {
 
@@ -90,12 +78,6 @@ RoadmapOptions roadmap_options_of(const SolveRequest& request, const Body& body)
   return options;
 }
 
-/// Looks at the deadline once in a while.
-inline void poll(std::size_t step, const Execution& execution) {
-  constexpr std::size_t polled = std::size_t{1} << 12;
-  if (step % polled == 0) execution.check();
-}
-
 /// How far from its reference point a body of the plane reaches, its clearance included.
 inline double reach_of(const Problem& problem) {
   double radius = problem.robot.radius;
@@ -126,7 +108,7 @@ void check_drawn(const W& world, const SolveRequest& request, const Problem& pro
     std::copy_n(highs.begin(), W::dimension, high.begin());
   }
   for (std::size_t i = 0; i < numbers.size(); ++i) {
-    poll(i, request.execution);
+    request.execution.poll(i);
     if (low[i % width] <= numbers[i] && numbers[i] <= high[i % width]) continue;
     throw InputError("roadmap", fmt::format("its state {} is none that the body can have", i / width));
   }
@@ -156,7 +138,7 @@ class OldMotions {
     vertices_.reserve(parts.vertex_count());
     double largest = reach_;
     for (VertexId v = 0; v < parts.vertex_count(); ++v) {
-      poll(v, execution);
+      execution.poll(v);
       const Key key = key_of(parts.state(v));
       vertices_.emplace_back(key, v);
       largest = std::max({largest, std::abs(key[0]), std::abs(key[1])});
@@ -200,7 +182,8 @@ class OldMotions {
   /// Cars drive curves. All others go straight: where a line parts what they sweep from a change, they don't meet it.
   bool may_meet_changes(const State& from, const State& to) const {
     if constexpr (requires { W::one_way; }) {
-      return comes_near(old_.places, world_.curve(from, to).box(), reach_ + kept_);
+      const Box swept = world_.curve(from, to).box().grown(reach_ + kept_);
+      return std::ranges::any_of(old_.places, [&](const Box& place) { return swept.meets(place); });
     } else {
       const Vec2 way{to.x - from.x, to.y - from.y};
       const double length = norm(way);
@@ -316,7 +299,7 @@ BuiltArrays build_sampled(const SolveRequest& request) {
   execution.reserve(built.states.size() * arrays.dimension * sizeof(double));
   arrays.states.reserve(built.states.size() * arrays.dimension);
   for (const State& state : built.states) {
-    detail::poll(arrays.states.size(), execution);
+    execution.poll(arrays.states.size());
     detail::add_numbers(state, arrays.dimension, arrays.states);
   }
   arrays.candidates = std::move(built.candidates);
@@ -361,7 +344,7 @@ std::unique_ptr<RoadmapSession> open_sampled(const SolveRequest& request, const 
   request.execution.reserve(arrays.states.size() * sizeof(double));
   states.reserve(numbers.size() / width);
   for (std::size_t i = 0; i < numbers.size(); i += width) {
-    detail::poll(i / width, request.execution);
+    request.execution.poll(i / width);
     states.push_back(detail::state_of<State>(numbers.subspan(i, width)));
   }
   const bool lazy = request.planner == PlannerKind::lazy_prm;

@@ -119,9 +119,6 @@ class UsualBody {
   Asked problem_;
 };
 
-/// Nodes of a tree that has no way to go, unless options say how many: it need not fill what it can reach.
-inline constexpr std::uint64_t nodes_where_apart = 1000;
-
 template <class Body>
 class SampledSolve {
  public:
@@ -192,7 +189,7 @@ class SampledSolve {
   void describe_trees() {
     tree_options_ = tree_options(request_.options);
     body_.suit(tree_options_);
-    answer_.sampler = sampler_name(tree_options_);
+    answer_.sampler = tree_options_.sampler ? name_of(*tree_options_.sampler) : "uniform-gaussian";
   }
   void index() {
     const StageTimer timer(execution(), "index", answer_.seconds.index);
@@ -226,7 +223,7 @@ class SampledSolve {
     if (by_roadmap()) {
       roadmap_options_.samples = first_samples(*view_, roadmap_options_, execution());
     } else {
-      tree_options_.nodes = nodes_where_apart;
+      tree_options_.nodes = 1000;  // they need not fill what they can reach
     }
   }
   /// The counts are those of all goals that were tried.

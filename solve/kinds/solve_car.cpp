@@ -28,10 +28,8 @@
 #include "solve/kinds/solve_steps.hpp"
 #include "solve/kinds/solve_to_goal.hpp"
 #include "solve/question/planner_choice.hpp"
-#include "verify/judges/verify_body_price.hpp"
-#include "verify/judges/verify_car.hpp"
+#include "verify/judges/verify_price.hpp"
 #include "worlds/poses/car_world.hpp"
-#include "worlds/poses/ways_out.hpp"
 
 namespace warren {
 namespace {
@@ -179,12 +177,8 @@ class Car : public PoseBody {
   /// Of how many trees.
   std::size_t paths_weighed() const { return is_length_alone() ? 1 : 4; }
   double price_once_shorter(const World& world, Path<Se2> path, Answer& answer) const {
-    if constexpr (!has_gears) {
-      return 0.0;
-    } else {
-      const auto curve_length = [&](const Se2& a, const Se2& b) { return length(world, a, b); };
-      return PricedCar(world.body(), price()).price(shortcut(world, std::move(path), curve_length, answer));
-    }
+    const auto curve_length = [&](const Se2& a, const Se2& b) { return length(world, a, b); };
+    return PricedCar(world.body(), price()).price(shortcut(world, std::move(path), curve_length, answer));
   }
 
  private:
@@ -192,10 +186,6 @@ class Car : public PoseBody {
   DrivingPrice price() const {
     const double usual_cusp = has_gears ? problem_.robot.turning_radius : 0.0;
     return {options_.car.cusp_cost.value_or(usual_cusp), options_.car.reverse_cost.value_or(1.0)};
-  }
-  /// What the lattice makes small. Where turning costs nothing a drive that turns on the spot would turn for nothing.
-  double turn_cost_on_lattice() const {
-    return options_.grid.turn_cost.value_or(Curve::turns_on_spot ? problem_.robot.turning_radius : 0.0);
   }
   /// Unasked, only what is driven anew has a price: where places have one, nothing is.
   DrivingPrice price_on_lattice() const {
@@ -242,7 +232,8 @@ class Car : public PoseBody {
     if (!options.cell && scene_.grid) options.cell = scene_.grid->cell;
     options.clearance = problem_.clearance;
     options.price = price_on_lattice();
-    options.turn_cost = turn_cost_on_lattice();
+    // Where turning costs nothing a drive that turns on the spot would turn for nothing.
+    options.turn_cost = options_.grid.turn_cost.value_or(Curve::turns_on_spot ? problem_.robot.turning_radius : 0.0);
     if (pose_prices_->is_priced()) options.prices = pose_prices_.get();
     return options;
   }
@@ -334,36 +325,26 @@ constexpr PlannerChoice car_planners[] = {
 
 bool fits_car(const Scene&, const RobotSpec& robot) { return robot.kind == RobotKind::car; }
 
-/// Which of three is for the way it steers.
+/// What `function` makes with the curve of the way it steers.
 template <class Function>
-Function by_steering(const SolveRequest& request, Function dubins, Function reeds_shepp, Function differential) {
+auto by_steering(const SolveRequest& request, const Function& function) {
   const SteeringKind steering = car_problem(request.scene, request.question, request.options.car).robot.steering;
-  if (steering == SteeringKind::dubins) return dubins;
-  return steering == SteeringKind::reeds_shepp ? reeds_shepp : differential;
+  if (steering == SteeringKind::dubins) return function.template operator()<DubinsCurve>();
+  if (steering == SteeringKind::reeds_shepp) return function.template operator()<ReedsSheppCurve>();
+  return function.template operator()<DifferentialCurve>();
 }
 
 Answer solve_car(const SolveRequest& request) {
-  return by_steering(request, solve_sampled<Car<DubinsCurve>>, solve_sampled<Car<ReedsSheppCurve>>,
-                     solve_sampled<Car<DifferentialCurve>>)(request);
-}
-
-template <class Curve>
-std::vector<GoalPlace> places_of(const SolveRequest& request) {
-  const Car<Curve> car(request);
-  std::optional<typename Car<Curve>::World> world;
-  car.index(world, SamplerKind::uniform);
-  return car.places(*world, rule_of(request.scene, request.question), goals_of(request.scene, request.question));
+  return by_steering(request, [&]<class Curve>() { return solve_sampled<Car<Curve>>(request); });
 }
 
 BuiltArrays build_for_car(const SolveRequest& request) {
-  return by_steering(request, build_sampled<Car<DubinsCurve>>, build_sampled<Car<ReedsSheppCurve>>,
-                     build_sampled<Car<DifferentialCurve>>)(request);
+  return by_steering(request, [&]<class Curve>() { return build_sampled<Car<Curve>>(request); });
 }
 
 std::unique_ptr<RoadmapSession> open_for_car(const SolveRequest& request, const RoadmapArrays& arrays,
                                              const ConnectionRule& rule) {
-  return by_steering(request, open_sampled<Car<DubinsCurve>>, open_sampled<Car<ReedsSheppCurve>>,
-                     open_sampled<Car<DifferentialCurve>>)(request, arrays, rule);
+  return by_steering(request, [&]<class Curve>() { return open_sampled<Car<Curve>>(request, arrays, rule); });
 }
 
 Verdict recheck_car(const Scene& scene, const Question& question, const RecordedAnswer& answer,
@@ -377,8 +358,12 @@ Verdict recheck_car(const Scene& scene, const Question& question, const Recorded
 }  // namespace
 
 std::vector<GoalPlace> places_of_car(const SolveRequest& request) {
-  return by_steering(request, places_of<DubinsCurve>, places_of<ReedsSheppCurve>,
-                     places_of<DifferentialCurve>)(request);
+  return by_steering(request, [&]<class Curve>() {
+    const Car<Curve> car(request);
+    std::optional<typename Car<Curve>::World> world;
+    car.index(world, SamplerKind::uniform);
+    return car.places(*world, rule_of(request.scene, request.question), goals_of(request.scene, request.question));
+  });
 }
 
 SolveKind car_kind() {

@@ -188,39 +188,37 @@ constexpr PlannerChoice lattice_planners[] = {
      restriction_words | pose_choice_words}};
 
 bool fits_lattice(const Scene& scene, const RobotSpec& robot) {
-  const bool fits = robot.kind == RobotKind::point || robot.kind == RobotKind::disc || robot.kind == RobotKind::polygon;
-  return fits && (!scene.map || robot.kind == RobotKind::polygon);
+  return robot.kind == RobotKind::polygon || (is_round(robot) && !scene.map);
 }
 
-Problem problem_of(const Scene& scene, const Question& options) {
+/// Of what does not turn all headings are 0.
+PoseProblem problem_of(const Scene& scene, const Question& options) {
   if (options.contact == Contact::allowed) throw UsageError("@contact: grid keeps off walls and polygons");
-  Problem problem;
+  PoseProblem problem;
   problem.robot = robot_of(scene, options);
-  problem.start = state_or_heading("@start", options.start, scene.start);
+  std::vector<double> start = state_or_heading("@start", options.start, scene.start);
   problem.goal = state_or_heading("@goal", options.goal, scene.goal);
   problem.clearance = clearance_of(scene, options);
-  if (problem.robot.kind != RobotKind::polygon) {
-    problem.start.resize(2);
-    problem.goal.resize(2);
+  if (is_round(problem.robot)) {
+    start.resize(2);
+    problem.goal = {problem.goal[0], problem.goal[1], 0.0};
   } else {
-    check_heading("@start", problem.start);
+    check_heading("@start", start);
     check_heading("@goal", problem.goal);
-    problem.start.resize(3, 0.0);
   }
+  start.resize(3, 0.0);
+  problem.start = {start[0], start[1], start[2]};
   return problem;
 }
 
-/// What only a body that turns takes.
-void refuse_turns(const SolveOptions& options) {
-  for (const Option option : {Option::angles, Option::face_motion, Option::turn_cost}) {
-    if (!given(options).has(option)) continue;
-    throw UsageError(fmt::format("@{}: a point and a disc do not turn", name_of(option)));
-  }
-}
-
-LayerOptions layer_options(const SolveRequest& request, const Problem& problem) {
+LayerOptions layer_options(const SolveRequest& request, const PoseProblem& problem) {
   LayerOptions options;
-  if (problem.robot.kind != RobotKind::polygon) refuse_turns(request.options);
+  if (is_round(problem.robot)) {
+    for (const Option option : {Option::angles, Option::face_motion, Option::turn_cost}) {
+      if (!given(request.options).has(option)) continue;
+      throw UsageError(fmt::format("@{}: a point and a disc do not turn", name_of(option)));
+    }
+  }
   options.clearance = problem.clearance;
   if (request.scene.map && request.options.grid.cell) {
     throw UsageError("@cell: on a map the grid's positions are the middles of its cells");
@@ -239,20 +237,20 @@ LayerOptions layer_options(const SolveRequest& request, const Problem& problem) 
 /// One solve: the steps share the question and fill in the answer.
 class LatticeSolve {
  public:
-  LatticeSolve(const SolveRequest& request, const Problem& problem)
+  explicit LatticeSolve(const SolveRequest& request)
       : request_(request),
-        problem_{problem.robot,
-                 {problem.start[0], problem.start[1], problem.start.size() == 3 ? problem.start[2] : 0.0},
-                 problem.goal,
-                 problem.clearance},
-        layer_options_(layer_options(request, problem)),
+        problem_(problem_of(request.scene, request.question)),
+        layer_options_(layer_options(request, problem_)),
         frame_(request.scene) {
-    if (!turns()) problem_.goal.resize(3, 0.0);
     search_.diagonal = request.options.grid.diagonal.value_or(Diagonal::sqrt2);
     search_.face_motion = request.options.grid.face_motion;
     search_.step_cost = request.options.grid.step_cost.value_or(1.0);
     search_.turn_cost = request.options.grid.turn_cost.value_or(1.0);
-    answer_.problem = problem;
+    answer_.problem = problem_.general();
+    if (!turns()) {
+      answer_.problem.start.resize(2);
+      answer_.problem.goal.resize(2);
+    }
     answer_.planner = name_of(PlannerKind::grid);
     answer_.search = name_of(GridMethod::astar);
     describe_options();
@@ -282,7 +280,7 @@ class LatticeSolve {
     const GoalRule rule = rule_of(request_.scene, request_.question);
     GoalPlaces places(goals_of(request_.scene, request_.question), rule, turns() ? 0.5 * heading_step(layers_) : 0.0);
     const auto in_world = [&](const LayerState& s) { return frame_.in_world(pose_of(layers_, s)); };
-    const std::vector<LayerEnd> starts = ends_at("@start", start_pose(), false);
+    const std::vector<LayerEnd> starts = ends_at("@start", problem_.start, false);
     if (rule.region) {
       const std::vector<LayerEnd> ends = ends_in_region(places, *rule.region);
       const LayerPath path = layer_search(layers_, starts, ends, search_, request_.execution);
@@ -348,10 +346,6 @@ class LatticeSolve {
     return map_layers(*request_.scene.map, problem_.robot.outline, layer_options_.grid.angles, problem_.clearance,
                       request_.execution);
   }
-
-  const Se2& start_pose() const { return problem_.start; }
-  Se2 goal_pose() const { return problem_.goal_pose(); }
-  bool any_heading() const { return problem_.any_heading(); }
 
   /// The free states so near to the end to which its motion is certified, with what it costs; none if the end is not
   /// free.
@@ -430,8 +424,8 @@ class LatticeSolve {
       answer_.outcome = Outcome::solved;
       return take({});  // without a move, whatever the states around it would say
     }
-    const std::vector<LayerEnd> starts = ends_at("@start", start_pose(), false);
-    const std::vector<LayerEnd> goals = ends_at("@goal", goal_pose(), any_heading());
+    const std::vector<LayerEnd> starts = ends_at("@start", problem_.start, false);
+    const std::vector<LayerEnd> goals = ends_at("@goal", problem_.goal_pose(), problem_.any_heading());
     const LayerPath path = layer_search(layers_, starts, goals, search_, request_.execution);
     answer_.counters.expanded = path.expanded;
     const Outcome found = !path.start_free                     ? Outcome::start_blocked
@@ -466,16 +460,16 @@ class LatticeSolve {
   /// The path begins and ends where it was asked to, on the lattice or off it.
   void take_poses(const std::vector<LayerState>& states) {
     const auto pose = [&](const LayerState& s) { return frame_.in_world(pose_of(layers_, s)); };
-    Se2 goal = goal_pose();
-    if (any_heading()) goal.theta = states.empty() ? start_pose().theta : pose(states.back()).theta;
-    poses_.push_back(start_pose());
+    Se2 goal = problem_.goal_pose();
+    if (problem_.any_heading()) goal.theta = states.empty() ? problem_.start.theta : pose(states.back()).theta;
+    poses_.push_back(problem_.start);
     for (const LayerState& s : states) {
       const Se2 next = pose(s);
-      const bool is_end = (s == states.front() && is_there(start_pose(), next, !turns())) ||
+      const bool is_end = (s == states.front() && is_there(problem_.start, next, !turns())) ||
                           (s == states.back() && is_there(goal, next, !turns()));
       if (!is_end) poses_.push_back(next);
     }
-    if (poses_.size() > 1 || !is_there(goal, start_pose(), !turns())) poses_.push_back(goal);
+    if (poses_.size() > 1 || !is_there(goal, problem_.start, !turns())) poses_.push_back(goal);
   }
 
   Verification judged(std::span<const Se2> poses, bool ends_too, double margin = 0.0) const {
@@ -517,7 +511,7 @@ class LatticeSolve {
   }
 
   const SolveRequest& request_;
-  PoseProblem problem_;  // of what does not turn all headings are 0
+  PoseProblem problem_;
   LayerOptions layer_options_;
   LayerSearchOptions search_;
   LatticeFrame frame_;
@@ -527,16 +521,14 @@ class LatticeSolve {
 };
 
 Answer solve_lattice(const SolveRequest& request) {
-  LatticeSolve solve(request, problem_of(request.scene, request.question));
+  LatticeSolve solve(request);
   answer_within_limits(solve.answer(), [&] { solve.run(); });
   return std::move(solve.answer());
 }
 
 }  // namespace
 
-std::vector<GoalPlace> places_on_layers(const SolveRequest& request) {
-  return LatticeSolve(request, problem_of(request.scene, request.question)).places();
-}
+std::vector<GoalPlace> places_on_layers(const SolveRequest& request) { return LatticeSolve(request).places(); }
 
 SolveKind lattice_kind() {
   return {"a body on a grid in a scene", fits_lattice, lattice_planners, usually<PlannerKind::grid>, solve_lattice};

@@ -24,17 +24,64 @@
 #include "solve/kinds/solve_to_goal.hpp"
 #include "solve/question/planner_choice.hpp"
 #include "spatial/maps/distance_field.hpp"
-#include "verify/judges/verify_map.hpp"
+#include "verify/judges/verify_point.hpp"
 #include "worlds/plane/grid_world.hpp"
 #include "worlds/prices/map_prices.hpp"
 
 namespace warren {
 namespace {
 
-std::vector<Vec2> way_points(const SolveRequest& request) {
-  std::vector<Vec2> points;
-  for (const std::vector<double>& point : request.options.trees.via) points.push_back({point[0], point[1]});
-  return points;
+/// What is said of the ends where one is called blocked (solve/kinds/solve_steps.hpp): by the verification.
+Outcome settled_on_map(Outcome outcome, const OccupancyMap& map, const WallProblem& problem,
+                       const Execution& execution) {
+  const auto is_free = [&](Vec2 p) { return cell_at(map, p) && stands_free_on_map(map, problem, p, execution); };
+  return settled_ends(
+      outcome, [&] { return is_free(problem.start); },
+      [&] {
+        const bool stays_on_water = starts_on_water(map, problem.start) && cell_at(map, problem.goal);
+        return stays_on_water || is_free(problem.goal);
+      });
+}
+
+/// Verifies a solved answer and fills in length and clearance. A path that fails is a bug, std::logic_error; but for
+/// paths over_cells of a disc, which may fail on the way between an end and the middle of its cell: not_connected.
+void verify_solved_on_map(Answer& answer, const OccupancyMap& map, const WallProblem& problem, bool over_cells,
+                          const Execution& execution) {
+  if (answer.outcome != Outcome::solved) return;
+  const StageTimer timer(execution, "verify", answer.seconds.verify, answer.path.size());
+  const Verification verification = verify_on_map(map, answer.path, verify_options(problem), execution);
+  if (!verification.verified) {
+    const Violation violation = verification.first_violation.value_or(Violation{});
+    const bool at_an_end = violation.leg == 0 || violation.leg + 2 == answer.path.size();
+    // What only rounding keeps off a cell that it touches is blocked.
+    answer.outcome = settled_on_map(Outcome::start_blocked, map, problem, execution);
+    const bool may_miss = over_cells && problem.reach() > 0.0 && at_an_end;
+    if (answer.outcome == Outcome::not_connected && !may_miss) fail_verification(answer, violation);
+    answer.path.clear();
+    return;
+  }
+  take_verdict(answer, verification);
+}
+
+/// A path cut where it first comes as near to a place.
+Path<Vec2> cut_at_region(Path<Vec2> path, Vec2 place, double radius) {
+  if (distance(path.front(), place) <= radius) return {path.front()};
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const Vec2 from = path[i - 1] - place;
+    const Vec2 leg = path[i] - path[i - 1];
+    const double a = dot(leg, leg);
+    const double b = dot(from, leg);
+    const double inside = b * b - a * (dot(from, from) - radius * radius);
+    if (!(a > 0.0) || !(inside > 0.0) || b >= 0.0) continue;
+    double share = (-b - std::sqrt(inside)) / a;
+    constexpr double step_in = 1e-12;
+    for (double in = step_in; distance(path[i - 1] + share * leg, place) > radius && in < 1e-3; in *= 4.0) share += in;
+    if (!(share < 1.0) || distance(path[i - 1] + share * leg, place) > radius) continue;
+    path.resize(i);
+    path.push_back(path[i - 1] + share * leg);
+    return path;
+  }
+  return path;
 }
 
 /// Left empty where nothing is priced.
@@ -124,8 +171,6 @@ class CellSolve {
 
   void run() {
     if (chooses_ || prices_) return run_chosen();
-    const auto start = cell_at(map_, problem_.start);
-    const auto goal = cell_at(map_, problem_.goal);
     answer_.outcome = settled_on_map(Outcome::start_blocked, map_, problem_, request_.execution);
     if (answer_.outcome != Outcome::not_connected) return;
     index();
@@ -134,7 +179,7 @@ class CellSolve {
       stay(answer_, problem_);
       count(1, 0.0);
     } else {
-      search(joined(problem_.start, *start), joined(problem_.goal, *goal));
+      search(joined(problem_.start), joined(problem_.goal));
       if (answer_.outcome != Outcome::solved)
         return prove_apart(answer_, map_, closed_, problem_, {problem_.goal}, request_.execution);
     }
@@ -158,7 +203,7 @@ class CellSolve {
  private:
   /// Where there is more to decide than the way to one place.
   void run_chosen() {
-    if (!stands_free(problem_.start)) {
+    if (!stands_free_on_map(map_, problem_, problem_.start, request_.execution)) {
       answer_.outcome = Outcome::start_blocked;
       return;
     }
@@ -186,7 +231,7 @@ class CellSolve {
   GoalChoice choose() {
     const StageTimer timer(request_.execution, "search", answer_.seconds.search, map_.blocked.size());
     answer_.search = "field";
-    GoalChoice choice = choose_goal(ways(), map_, problem_, way_points(request_), has_open_end(request_));
+    GoalChoice choice = choose_goal(ways(), map_, problem_, request_.options.trees.via, has_open_end(request_));
     answer_.counters.expanded += ways().expanded();
     return choice;
   }
@@ -226,7 +271,6 @@ class CellSolve {
   /// Paths over cells alone are farther from any bound than gaps that are asked for.
   MapPrices::Scratch& scratch() { return kept_ != nullptr ? kept_->scratch() : scratch_; }
   bool wants_taut() const { return prices_ || request_.options.optimise || request_.options.anytime.gap; }
-  bool stands_free(Vec2 p) const { return stands_free_on_map(map_, problem_, p, request_.execution); }
 
   void index() {
     const StageTimer timer(request_.execution, "index", answer_.seconds.index, map_.blocked.size());
@@ -243,8 +287,8 @@ class CellSolve {
   /// Of closed_, where there are any; nullptr otherwise.
   const DistanceField* distances() const { return prices_ && map_.water.empty() ? prices_->distances() : nullptr; }
   const Bitmap& blocked() const { return blocked_.empty() ? closed_ : blocked_; }
-  std::vector<Cell> joined(Vec2 p, Cell own) const {
-    return cells_joined_to(map_, blocked(), problem_.reach(), p, own, request_.execution);
+  std::vector<Cell> joined(Vec2 p) const {
+    return cells_joined_to(map_, blocked(), problem_.reach(), p, request_.execution);
   }
 
   void choose_method() {

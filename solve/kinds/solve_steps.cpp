@@ -8,7 +8,6 @@
 
 #include "solve/question/asked_words.hpp"
 #include "verify/judges/effective_scene.hpp"
-#include "verify/judges/verify_body_price.hpp"
 #include "verify/judges/verify_price.hpp"
 
 namespace warren {
@@ -153,12 +152,6 @@ void take_verdict(Answer& answer, const Verification& verdict) {
   answer.verified = true;
   answer.length = verdict.length;
   answer.min_clearance = verdict.min_clearance;
-}
-
-Verdict verify_plane_answer(const Scene& scene, const WallProblem& problem, const RecordedAnswer& answer,
-                            const Execution& execution) {
-  check_state_width(answer, 2, "a point or disc");
-  return {verify_path(scene, answer.path, verify_options(problem), execution), problem.general()};
 }
 
 Box room_of(const Scene& scene, const Execution& execution) {

@@ -93,10 +93,6 @@ VerifyOptions verify_options(const WallProblem& problem);
 /// The judge's word on the path of a solved answer: as verify_solved().
 void take_verdict(Answer& answer, const Verification& verdict);
 
-/// verify_path for the problem: all of it, or of one point only.
-Verdict verify_plane_answer(const Scene& scene, const WallProblem& problem, const RecordedAnswer& answer,
-                            const Execution& execution);
-
 /// Runs `solve`, which fills in `answer`; its seconds are solve_s, and whatever stops it is an answer. One that is not
 /// verified claims nothing.
 template <class Solve>

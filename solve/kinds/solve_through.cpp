@@ -127,12 +127,8 @@ class ThroughStops {
     const bool is_last = leg == stops_.size();
     Question question = request_.question;
     if (leg > 0) question.start = end_of(whole_);
-    if (!is_last) {
-      question.goal = turned != nullptr ? *turned : stops_[leg];
-      question.goal_pose.reset();
-      question.rule = {};
-    } else if (question.rule.back) {
-      question.goal = whole_.problem.start;
+    if (!is_last || question.rule.back) {
+      question.goal = turned != nullptr ? *turned : is_last ? whole_.problem.start : stops_[leg];
       question.goal_pose.reset();
       question.rule = {};
     }

@@ -17,8 +17,6 @@
 namespace warren {
 namespace {
 
-constexpr double rounding_rad = 1e-9;
-
 Vec2 position(const std::vector<double>& state) { return {state[0], state[1]}; }
 
 /// One question: the steps share it and fill in the answer.
@@ -296,42 +294,6 @@ double paid_for(const Answer& answer, const SolveRequest& request) {
   } catch (const Stopped&) {
     return told_cost(answer);
   }
-}
-
-GoalPlaces::GoalPlaces(std::vector<std::vector<double>> goals, const GoalRule& rule, double coarse)
-    : goals_(std::move(goals)),
-      reach_(rule.region ? *rule.region : rule.tolerance.value_or(0.0)),
-      most_off_rad_(rule.heading_rad.value_or(0.0) + rounding_rad),
-      coarse_rad_(coarse) {}
-
-std::optional<GoalPlaces::Offered> GoalPlaces::offered(const Se2& pose) const {
-  std::optional<Offered> best;
-  for (std::size_t i = 0; i < goals_.size(); ++i) {
-    const std::vector<double>& goal = goals_[i];
-    const double off = distance(pose.position(), position(goal));
-    if (off > reach_) continue;
-    const double turn = goal.size() == 3 ? std::abs(turn_between(pose.theta, goal[2])) : 0.0;
-    if (turn > std::max(most_off_rad_, coarse_rad_)) continue;
-    const double heading = turn <= most_off_rad_ ? pose.theta : goal[2];
-    Offered here{off, turn, {{pose.x, pose.y, heading}, i, off}};
-    if (!best || here < *best) best = std::move(here);
-  }
-  return best;
-}
-
-void GoalPlaces::offer(const Se2& pose, std::optional<double> rank) {
-  constexpr std::size_t most = 16;
-  std::optional<Offered> found = offered(pose);
-  if (!found) return;
-  found->rank = rank.value_or(found->rank);
-  kept_.insert(std::upper_bound(kept_.begin(), kept_.end(), *found), std::move(*found));
-  if (kept_.size() > most) kept_.pop_back();
-}
-
-std::vector<GoalPlace> GoalPlaces::taken() {
-  std::vector<GoalPlace> places;
-  for (Offered& offered : kept_) places.push_back(std::move(offered.place));
-  return places;
 }
 
 std::vector<std::vector<double>> goals_of(const Scene& scene, const Question& question) {

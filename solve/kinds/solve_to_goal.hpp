@@ -6,6 +6,8 @@
 // it plans between all of them first, and the order is the cheapest one over what it found.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -34,7 +36,11 @@ struct GoalPlace {
 class GoalPlaces {
  public:
   /// goals: 2 or 3 numbers each. rule: of a tolerance or a region. coarse: radians, >= 0.
-  GoalPlaces(std::vector<std::vector<double>> goals, const GoalRule& rule, double coarse);
+  GoalPlaces(std::vector<std::vector<double>> goals, const GoalRule& rule, double coarse)
+      : goals_(std::move(goals)),
+        reach_(rule.region ? *rule.region : rule.tolerance.value_or(0.0)),
+        most_off_rad_(rule.heading_rad.value_or(0.0) + rounding_rad),
+        coarse_rad_(coarse) {}
 
   /// As the nearest goal takes it; none: no goal does.
   std::optional<GoalPlace> place(const Se2& pose) const {
@@ -42,9 +48,20 @@ class GoalPlaces {
     return found ? std::optional(std::move(found->place)) : std::nullopt;
   }
   /// Of equal ranks the one whose heading is less off counts, and then the first. No rank: its distance.
-  void offer(const Se2& pose, std::optional<double> rank = {});
+  void offer(const Se2& pose, std::optional<double> rank = {}) {
+    constexpr std::size_t most = 16;
+    std::optional<Offered> found = offered(pose);
+    if (!found) return;
+    found->rank = rank.value_or(found->rank);
+    kept_.insert(std::upper_bound(kept_.begin(), kept_.end(), *found), std::move(*found));
+    if (kept_.size() > most) kept_.pop_back();
+  }
   /// The least rank first.
-  std::vector<GoalPlace> taken();
+  std::vector<GoalPlace> taken() {
+    std::vector<GoalPlace> places;
+    for (Offered& offered : kept_) places.push_back(std::move(offered.place));
+    return places;
+  }
 
  private:
   struct Offered {
@@ -55,8 +72,22 @@ class GoalPlaces {
       return std::pair{a.rank, a.turn_rad} < std::pair{b.rank, b.turn_rad};
     }
   };
-  std::optional<Offered> offered(const Se2& pose) const;
+  std::optional<Offered> offered(const Se2& pose) const {
+    std::optional<Offered> best;
+    for (std::size_t i = 0; i < goals_.size(); ++i) {
+      const std::vector<double>& goal = goals_[i];
+      const double off = distance(pose.position(), Vec2{goal[0], goal[1]});
+      if (off > reach_) continue;
+      const double turn = goal.size() == 3 ? std::abs(turn_between(pose.theta, goal[2])) : 0.0;
+      if (turn > std::max(most_off_rad_, coarse_rad_)) continue;
+      const double heading = turn <= most_off_rad_ ? pose.theta : goal[2];
+      Offered here{off, turn, {{pose.x, pose.y, heading}, i, off}};
+      if (!best || here < *best) best = std::move(here);
+    }
+    return best;
+  }
 
+  static constexpr double rounding_rad = 1e-9;
   std::vector<std::vector<double>> goals_;
   double reach_;         // world units
   double most_off_rad_;  // of headings

@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Joins Se2World with the planners that take it: a polygon that turns among walls, polygons and bounds, or on a map.
+// A polygon among walls, polygons and bounds, or on a map: joins Se2World with the planners that turn it, and has those
+// that keep it at one angle.
+#include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <utility>
 
+#include "core/base/error.hpp"
+#include "core/plane/polygon.hpp"
 #include "core/plane/se2.hpp"
+#include "planners/visibility/visibility_path.hpp"
 #include "solve/kinds/geometric_roadmaps.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 #include "solve/kinds/plane_steps.hpp"
@@ -17,10 +24,51 @@
 #include "solve/kinds/sampled_roadmap.hpp"
 #include "solve/kinds/sampled_solve.hpp"
 #include "solve/kinds/solve_steps.hpp"
+#include "worlds/plane/obstacles_at_fixed_angle.hpp"
 #include "worlds/poses/se2_world.hpp"
 
 namespace warren {
 namespace {
+
+Path<Se2> without_half_turns(const Path<Se2>& path) {
+  constexpr double most_rad = 3.0;
+  Path<Se2> cut;
+  for (const Se2& pose : path) {
+    if (!cut.empty() && std::abs(turn_between(cut.back().theta, pose.theta)) > most_rad) {
+      cut.push_back(interpolate(Se2(cut.back()), pose, 0.5));
+    }
+    cut.push_back(pose);
+  }
+  return cut;
+}
+
+/// Does a polygon that may turn stand free at the pose as an end, with its clearance? `judged`, here and below: of the
+/// scene, or nullptr.
+bool turning_stands_free(const Scene& scene, const PoseProblem& problem, const Se2& pose, const Execution& execution,
+                         const ObstacleIndex* judged = nullptr) {
+  const PoseVerifyOptions options{.clearance = problem.clearance + end_margin(scene, problem, execution)};
+  return verify_se2(scene, problem.robot.outline, std::span(&pose, 1), options, execution, judged).verified;
+}
+
+/// Verifies its path, whichever planner found it, and fills it into the answer with what is said of it. A leg of about
+/// half a turn, which could be read either way, gets a pose in its middle. A path that fails is a bug: throws
+/// std::logic_error.
+void judge_turning(const Scene& scene, const PoseProblem& problem, const Path<Se2>& path, const Execution& execution,
+                   Answer& answer, const ObstacleIndex* judged = nullptr) {
+  const Path<Se2> poses = without_half_turns(path);
+  const StageTimer timer(execution, "verify", answer.seconds.verify, poses.size());
+  const Verification found =
+      verify_se2(scene, problem.robot.outline, poses, verify_options(problem), execution, judged);
+  take_poses(answer, found, poses);
+}
+
+Verdict recheck_turning(const Scene& scene, const Question& question, const RecordedAnswer& answer,
+                        const Execution& execution) {
+  const PoseProblem problem = pose_problem(scene, question, turning_body);
+  check_state_width(answer, 3, turning_body);
+  return {verify_se2(scene, problem.robot.outline, poses_of(answer.states), verify_options(problem), execution),
+          problem.general()};
+}
 
 class TurningPolygon : public PoseBody {
  public:
@@ -72,21 +120,19 @@ constexpr PlannerChoice turning_axis_planners[] = {
     {PlannerKind::voronoi, OptionSet{Option::objective, Option::search, Option::queue, Option::bound},
      restriction_words | AskedWords{AskedWord::goal}}};
 
-/// The same question for the disc that holds the body.
-Question question_of_disc(const PoseProblem& problem) {
-  Question options;
-  options.robot = RobotSpec{.kind = RobotKind::disc, .radius = extent_of(problem.robot), .outline = {}};
-  options.start = {problem.start.x, problem.start.y};
-  options.goal = {problem.goal[0], problem.goal[1]};
-  options.clearance = problem.clearance;
-  return options;
-}
-
-SolveRequest request_of_disc(const SolveRequest& request, const Question& disc) {
-  SolveRequest of_disc{request.options,   request.scene, disc,         request.planner,
-                       request.execution, request.keep,  request.asked};
-  of_disc.many = request.many;
-  return of_disc;
+/// What `solve` makes of the same question for the disc that holds the body.
+template <class Solve>
+auto of_disc(const SolveRequest& request, Solve solve) {
+  const PoseProblem problem = pose_problem(request.scene, request.question, turning_body);
+  Question disc;
+  disc.robot = RobotSpec{.kind = RobotKind::disc, .radius = extent_of(problem.robot), .outline = {}};
+  disc.start = {problem.start.x, problem.start.y};
+  disc.goal = {problem.goal[0], problem.goal[1]};
+  disc.clearance = problem.clearance;
+  SolveRequest asked{request.options,   request.scene, disc,         request.planner,
+                     request.execution, request.keep,  request.asked};
+  asked.many = request.many;
+  return solve(asked);
 }
 
 class AxisSolve {
@@ -95,9 +141,7 @@ class AxisSolve {
       : request_(request), problem_(pose_problem(request.scene, request.question, turning_body)) {}
 
   Answer run() {
-    const Question disc = question_of_disc(problem_);
-    const SolveRequest of_disc = request_of_disc(request_, disc);
-    answer_ = request_.scene.map ? solve_on_skeleton(of_disc) : solve_on_medial_axis(of_disc);
+    answer_ = of_disc(request_, request_.scene.map ? solve_on_skeleton : solve_on_medial_axis);
     answer_.problem = problem_.general();
     if (answer_.outcome == Outcome::stopped) return std::move(answer_);
     const double seconds = answer_.solve_s;
@@ -164,15 +208,118 @@ class AxisSolve {
 
 Answer solve_turning_axis(const SolveRequest& request) { return AxisSolve(request).run(); }
 
-BuiltArrays build_turning_axis(const SolveRequest& request) {
-  const Question disc = question_of_disc(pose_problem(request.scene, request.question, turning_body));
-  return build_geometric(request_of_disc(request, disc));
-}
+BuiltArrays build_turning_axis(const SolveRequest& request) { return of_disc(request, build_geometric); }
 
 std::unique_ptr<RoadmapSession> open_turning_axis(const SolveRequest& request, const RoadmapArrays& arrays,
                                                   const ConnectionRule& rule) {
-  const Question disc = question_of_disc(pose_problem(request.scene, request.question, turning_body));
-  return open_geometric(request_of_disc(request, disc), arrays, rule);
+  return of_disc(request, [&](const SolveRequest& disc) { return open_geometric(disc, arrays, rule); });
+}
+
+// The planners that don't turn a polygon, in scenes: on maps, whose cells all touch, they have none. Minkowski sums of
+// the obstacles with the mirrored body (worlds/plane/obstacles_at_fixed_angle), and the visibility graph among them,
+// which gives the shortest path, or vertical cells around their union. The body keeps a hair's breadth off the
+// obstacles, a ten-billionth of the world's size, so that rounding can't fail the verification; by so little, times the
+// corners that it passes, the path may be longer than the shortest.
+
+double size_of(const Scene& scene, std::span<const Vec2> outline) {
+  Box box = obstacle_box(scene);
+  if (scene.bounds) box.include(*scene.bounds);
+  double largest = outline_reach(outline);
+  if (box.empty()) return largest;
+  for (const double c : {box.min.x, box.min.y, box.max.x, box.max.y}) largest = std::max(largest, std::abs(c));
+  return largest;
+}
+
+/// cells: none: the visibility graph.
+Solution<Vec2> plan_for_point(const PlaneObstacles& obstacles, const PoseProblem& problem,
+                              const std::optional<CellOptions>& cells, const Execution& execution, ByProducts* keep) {
+  const Vec2 start = problem.start.position();
+  const Vec2 goal = problem.goal_pose().position();
+  if (!cells) return visibility_path(obstacles, start, goal, {}, execution);
+  CellOptions options = *cells;
+  options.overlaps = Overlaps::united;
+  CellPlan plan;
+  Solution<Vec2> solution = plan_through_cells(obstacles, start, goal, options, execution, &plan);
+  if (keep != nullptr) keep->lines.push_back(doors_of(plan.cells));
+  return solution;
+}
+
+/// Is there any place where the body, at the start's angle, has its room in the bounds?
+bool fits_in_bounds(const Scene& scene, const PoseProblem& problem, double room) {
+  if (!scene.bounds) return true;
+  Box body;
+  for (const Vec2 p : problem.robot.outline) body.include(placed({0.0, 0.0, problem.start.theta}, p));
+  return body.width() + 2.0 * room < scene.bounds->width() && body.height() + 2.0 * room < scene.bounds->height();
+}
+
+/// The way of the reference point. `keep`, where given, receives what blocks it, and the cells. A body that does not
+/// fit in the bounds at this angle starts blocked.
+Solution<Vec2> plan_at_fixed_angle(const Scene& scene, const PoseProblem& problem,
+                                   const std::optional<CellOptions>& cells, const Execution& execution,
+                                   ByProducts* keep) {
+  const std::vector<Vec2>& outline = problem.robot.outline;
+  const double hair = 1e-10 * size_of(scene, outline);
+  const std::size_t disc_corners = problem.clearance > 0.0 ? 32 : 4;  // of a polygon around the clearance's disc
+  if (!fits_in_bounds(scene, problem, 2.0 * (problem.clearance + hair))) {
+    Solution<Vec2> blocked;
+    blocked.outcome = Outcome::start_blocked;
+    return blocked;
+  }
+  double index_s = 0.0;
+  PlaneObstacles obstacles;
+  {
+    const StageTimer timer(execution, "index", index_s);
+    obstacles = translation_obstacles(scene, outline, problem.start.theta, problem.clearance + hair, disc_corners);
+  }
+  Solution<Vec2> solution = plan_for_point(obstacles, problem, cells, execution, keep);
+  if (keep != nullptr) keep->lines.push_back({"blocked", obstacles.polygons, true});
+  solution.seconds.index += index_s;
+  return solution;
+}
+
+void check_angles(const PoseProblem& problem, PlannerKind planner) {
+  constexpr double same_rad = 1e-9;
+  if (problem.any_heading() || std::abs(turn_between(problem.start.theta, problem.goal[2])) <= same_rad) return;
+  throw UsageError(
+      fmt::format("@planner: {} does not turn the body; start and goal have different angles", name_of(planner)));
+}
+
+void find_and_verify(const SolveRequest& request, const PoseProblem& problem, const std::optional<CellOptions>& cells,
+                     Answer& answer) {
+  const Solution<Vec2> solution = plan_at_fixed_angle(request.scene, problem, cells, request.execution, request.keep);
+  if (cells) answer.cells = CellCount{solution.roadmap.milestones, solution.roadmap.edges};
+  take_account(answer, solution);
+  settle_blocked_poses(answer, request.scene, problem, request.execution, [&](const Se2& pose) {
+    return turning_stands_free(request.scene, problem, pose, request.execution);
+  });
+  if (answer.outcome != Outcome::solved) return;
+  Path<Se2> poses;
+  for (const Vec2 p : solution.path) poses.push_back({p.x, p.y, problem.start.theta});
+  judge_turning(request.scene, problem, poses, request.execution, answer);
+}
+
+constexpr AskedWords fixed_words = restriction_words | AskedWords{AskedWord::goal};
+constexpr PlannerChoice fixed_angle_planners[] = {
+    {PlannerKind::visibility, {Option::bound}, fixed_words},
+    {PlannerKind::cells, {Option::doors, Option::search, Option::queue, Option::bound}, fixed_words}};
+
+bool fits_fixed_angle(const Scene& scene, const RobotSpec& robot) { return fits_turning(scene, robot) && !scene.map; }
+
+Answer solve_fixed_angle(const SolveRequest& request) {
+  const PoseProblem problem = pose_problem(request.scene, request.question, turning_body);
+  check_angles(problem, request.planner);
+  const SearchChoice search = search_choice(request.options);
+  Answer answer;
+  answer.problem = problem.general();
+  answer.planner = name_of(request.planner);
+  answer.search = name_of(search.search);
+  std::optional<CellOptions> cells;
+  if (request.planner == PlannerKind::cells) {
+    cells = cell_options(request.options, search);
+    answer.options.push_back(doors_option(*cells));
+  }
+  answer_within_limits(answer, [&] { find_and_verify(request, problem, cells, answer); });
+  return answer;
 }
 
 }  // namespace
@@ -197,6 +344,11 @@ SolveKind turning_axis_kind() {
           nullptr,
           build_turning_axis,
           open_turning_axis};
+}
+
+SolveKind fixed_angle_kind() {
+  return {"a polygon at a fixed angle", fits_fixed_angle, fixed_angle_planners, usually<PlannerKind::visibility>,
+          solve_fixed_angle};
 }
 
 }  // namespace warren

@@ -20,8 +20,6 @@
 namespace warren {
 namespace {
 
-constexpr std::uint64_t places_a_poll = 1U << 12U;
-
 /// A line of the file.
 struct Row {
   std::size_t leg = 0;
@@ -94,7 +92,7 @@ class Rows {
     tell_at(moment, time_s, along);
   }
   void tell_at(const PathMoment& moment, double time_s, double along) {
-    if (++written_ % places_a_poll == 0) execution_.check();
+    execution_.poll(++written_);
     for (; leg_ < moment.leg; ++leg_) add_turns(leg_, turned_);
     std::array<double, most_joints> turned = turned_;
     if (moment.share >= 1.0) add_turns(moment.leg, turned);  // whose end is the next state as it stands

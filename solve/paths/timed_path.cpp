@@ -14,8 +14,6 @@
 namespace warren {
 namespace {
 
-constexpr std::size_t legs_a_poll = 1U << 14U;
-
 /// One number is for all joints.
 double of_joint(const std::vector<double>& limits, std::size_t k) {
   if (limits.empty()) return std::numeric_limits<double>::infinity();
@@ -61,7 +59,7 @@ TimedPath::TimedPath(const PathLegs& legs, const TravelLimits& limits, const Exe
   double speed = 0.0;
   std::size_t before = count;  // the last leg that has a length
   for (std::size_t i = 0; i < count; ++i) {
-    if (i % legs_a_poll == 0) execution.check();
+    execution.poll(i);
     const double length = legs.length(i);
     if (length > 0.0) {
       const LegLimits limit = limits_of(i);
@@ -75,14 +73,14 @@ TimedPath::TimedPath(const PathLegs& legs, const TravelLimits& limits, const Exe
   // Backwards: what can be braked down to the stop at the end.
   speed = 0.0;
   for (std::size_t i = count; i-- > 0;) {
-    if (i % legs_a_poll == 0) execution.check();
+    execution.poll(i);
     const double length = legs.length(i);
     speeds_[i + 1] = speed;
     if (length > 0.0) speed = std::min(speeds_[i], reachable(speed, limits_of(i), length));
   }
   speeds_[0] = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
-    if (i % legs_a_poll == 0) execution.check();
+    execution.poll(i);
     times_[i + 1] = times_[i] + (legs.length(i) > 0.0 ? ramp(i).duration_s() : 0.0);
   }
 }

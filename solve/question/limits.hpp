@@ -42,13 +42,11 @@ struct Limits {
 
 /// The execution that keeps limits; the budget begins with it. Not movable: the execution points into it. Throws
 /// UsageError for limits that nobody can keep.
-class LimitedExecution {
+class LimitedExecution : NotCopied {
  public:
   /// Its budget begins; `limits` is copied, its flag is not.
   explicit LimitedExecution(const Limits& limits);
   ~LimitedExecution();
-  LimitedExecution(const LimitedExecution&) = delete;
-  LimitedExecution& operator=(const LimitedExecution&) = delete;
 
   /// Valid while this lives.
   const Execution& execution() const { return execution_; }

@@ -3,7 +3,6 @@
 // the world.
 #pragma once
 
-#include <string_view>
 #include <vector>
 
 #include "planners/graph/roadmap_options.hpp"
@@ -77,9 +76,5 @@ inline constexpr OptionSet rrt_star_options{Option::iterations, Option::gap,    
 
 /// Throws UsageError for samplers that trees have no use for.
 RrtOptions tree_options(const SolveOptions& options);
-/// What the answer calls the trees' sampler.
-inline std::string_view sampler_name(const RrtOptions& options) {
-  return options.sampler ? name_of(*options.sampler) : "uniform-gaussian";
-}
 
 }  // namespace warren

@@ -10,11 +10,8 @@
 
 #include "core/base/error.hpp"
 #include "core/base/whole.hpp"
-#include "scenes/arms/dh_table_io.hpp"
-#include "scenes/arms/urdf_io.hpp"
-#include "worlds/arms/arm_inverse.hpp"
+#include "scenes/arms/arm_files_io.hpp"
 #include "worlds/arms/arm_world.hpp"
-#include "worlds/arms/chain_model.hpp"
 #include "worlds/arms/convex_motion.hpp"
 #include "worlds/arms/puma560.hpp"
 #include "worlds/arms/serial_chain.hpp"
@@ -110,25 +107,20 @@ void take_goal(ArmProblem& problem, const Scene& scene, const Question& options)
   }
 }
 
-/// Of joints without end, whose turns are rounded more the farther they are from 0.
-void check_turns(const ArmModel& model, std::string_view end, std::span<const double> state) {
+/// Refuses far turns of joints without end, which are rounded more the farther they are from 0, and moves those of an
+/// arm of files that are a little beyond a limit onto it.
+void settle_joints(ArmProblem& problem, std::string_view where, std::string_view end, std::span<double> state) {
   for (std::size_t j = 0; j < state.size(); ++j) {
-    const ArmVariable& variable = model.variables[j];
-    if (!variable.continuous || std::abs(state[j]) <= farthest_turn) continue;
-    throw UsageError(
-        fmt::format("{}: joint '{}', which has no end, takes -{} to {}; say it without full turns (found: {})", end,
-                    variable.name, farthest_turn, farthest_turn, state[j]));
-  }
-}
-
-void move_onto_limits(const ArmModel& model, std::string_view end, std::span<double> state,
-                      std::vector<std::string>& told) {
-  for (std::size_t j = 0; j < state.size(); ++j) {
-    const ArmVariable& variable = model.variables[j];
-    if (variable.continuous) continue;
+    const ArmVariable& variable = problem.model.variables[j];
+    if (variable.continuous && !(std::abs(state[j]) <= farthest_turn)) {
+      throw UsageError(
+          fmt::format("{}: joint '{}', which has no end, takes -{} to {}; say it without full turns (found: {})", where,
+                      variable.name, farthest_turn, farthest_turn, state[j]));
+    }
+    if (variable.continuous || problem.table) continue;
     const double within = std::clamp(state[j], variable.low, variable.high);
     if (state[j] == within || !(std::abs(state[j] - within) <= rounded_joints)) continue;
-    told.push_back(
+    problem.told.push_back(
         fmt::format("{}: {} is moved from {:.9g} onto its limit, {:.9g}", end, variable.name, state[j], within));
     state[j] = within;
   }
@@ -213,15 +205,10 @@ ArmProblem arm_problem(const Scene& scene, const Question& options, const Execut
   const std::vector<double> said = is_named ? state_named(problem, scene, *scene.named_start, false) : scene.start;
   std::vector<double> start = state_of("@start", options.start, said, problem.width(), false);
   take_goal(problem, scene, options);
-  check_turns(problem.model, options.start.empty() ? scene.source + ": the start" : "@start", start);
+  settle_joints(problem, options.start.empty() ? scene.source + ": the start" : "@start", "start", start);
   const std::string of_goal = options.goal.empty() ? scene.source + ": the goal" : "@goal";
-  if (!problem.any_posture()) check_turns(problem.model, of_goal, problem.goal);
-  for (const std::vector<double>& goal : problem.other_goals) check_turns(problem.model, of_goal, goal);
-  if (!problem.table) {
-    move_onto_limits(problem.model, "start", start, problem.told);
-    if (!problem.any_posture()) move_onto_limits(problem.model, "goal", problem.goal, problem.told);
-    for (std::vector<double>& goal : problem.other_goals) move_onto_limits(problem.model, "goal", goal, problem.told);
-  }
+  if (!problem.any_posture()) settle_joints(problem, of_goal, "goal", problem.goal);
+  for (std::vector<double>& goal : problem.other_goals) settle_joints(problem, of_goal, "goal", goal);
   problem.start = joint_state(start);
   return problem;
 }

@@ -15,8 +15,8 @@
 #include "planners/mazes/tile_source.hpp"
 #include "scenes/files/maze_file_io.hpp"
 #include "scenes/text/input_file_io.hpp"
-#include "solve/answer/path_hash.hpp"
 #include "solve/answer/world_account.hpp"
+#include "solve/answer/write_answer_io.hpp"
 #include "solve/explain/blocked_end.hpp"
 #include "solve/kinds/lower_bound.hpp"
 #include "solve/kinds/solve_steps.hpp"
@@ -139,7 +139,7 @@ class StreamedSolve {
     open_walls();
     plan_and_verify();
     answer_.outcome = settled_ends(
-        answer_.outcome, [&] { return stands_free(problem_.start); }, [&] { return stands_free(problem_.goal); });
+        answer_.outcome, [&] { return !met_at(problem_.start); }, [&] { return !met_at(problem_.goal); });
     explain_blocked_cell(problem_, *scene_.maze, answer_, [&](Vec2 p) { return met_at(p); });
     count_walls();
   }
@@ -189,7 +189,6 @@ class StreamedSolve {
   std::optional<Violation> met_at(Vec2 p) const {
     return verify_among_cells(walls_->judged(), std::span(&p, 1), end_options(problem_), execution_).first_violation;
   }
-  bool stands_free(Vec2 p) const { return !met_at(p); }
   /// Below half a cell nothing but a wall between two cells blocks a step, so the steps that are free say how many
   /// walls stand; the outline counts as four, as in maze_walls.
   void count_walls() {

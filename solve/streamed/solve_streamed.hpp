@@ -27,12 +27,9 @@
 namespace warren {
 
 /// Immutable; any number of threads may ask.
-class StreamedWalls {
+class StreamedWalls : NotCopied {
  public:
-  StreamedWalls() = default;
   virtual ~StreamedWalls() = default;
-  StreamedWalls(const StreamedWalls&) = delete;
-  StreamedWalls& operator=(const StreamedWalls&) = delete;
   virtual const CellWallSource& planned() const = 0;
   virtual const CellWallSource& judged() const = 0;
   /// What is known of the walls by reading them: how many they are, and scene_hash() of the scene with them.
@@ -53,12 +50,9 @@ std::unique_ptr<StreamedWalls> streamed_walls(const Scene& unmade, TileRows own,
 
 /// Several processes that share the work of a streamed solve, as the one that asks for the answer sees them
 /// (apps/distributed/leader_follower.hpp).
-class StreamedTeam {
+class StreamedTeam : NotCopied {
  public:
-  StreamedTeam() = default;
   virtual ~StreamedTeam() = default;
-  StreamedTeam(const StreamedTeam&) = delete;
-  StreamedTeam& operator=(const StreamedTeam&) = delete;
   /// Makes or reads what the tiles need to be had each by itself; once, before all else. Refers to the team. Throws
   /// InputError, ReadError, Stopped.
   virtual std::unique_ptr<StreamedWalls> make(const Execution& execution) = 0;

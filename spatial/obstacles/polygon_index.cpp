@@ -6,13 +6,8 @@
 
 #include "core/base/whole.hpp"
 #include "core/plane/geometry.hpp"
-#include "parallel/chunks.hpp"
 
 namespace warren {
-namespace {
-constexpr std::size_t polygon_grain = std::size_t{1} << 12;
-}  // namespace
-
 /// What a ray from p to the right has met.
 struct PolygonIndex::Crossings {
   Vec2 p;
@@ -24,8 +19,9 @@ PolygonIndex::PolygonIndex(PolygonSet polygons, const Execution& execution) : po
   const std::size_t n = polygons_.corners.size();
   execution.reserve(n * (sizeof(std::uint32_t) + sizeof(Box) / 7) + polygons_.size() * 3 * sizeof(Box));
   next_.resize(n);
+  constexpr std::size_t grain = std::size_t{1} << 12;
   std::vector<BoxOf<2>> boxes(polygons_.size());
-  for_each_index(polygons_.size(), polygon_grain, execution, [&](std::size_t polygon) {
+  for_each_index(polygons_.size(), grain, execution, [&](std::size_t polygon) {
     const auto [first, last] = sides_of(polygon);
     Box box;
     for (std::size_t i = first; i < last; ++i) {

@@ -5,8 +5,6 @@
 #include <immintrin.h>
 #endif
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "core/base/error.hpp"
@@ -72,11 +70,6 @@ template <std::size_t bytes>
   }
 }
 
-template <class T>
-void MotionBunch<T>::sift_baseline(std::span<const WallOf<T>> walls) noexcept {
-  sift_with<16>(walls);
-}
-
 #if defined(__x86_64__) && !defined(WARREN_PLAIN)
 
 template <class T>
@@ -137,26 +130,16 @@ template <>
   }
 }
 
-template <class T>
-void MotionBunch<T>::sift(std::span<const WallOf<T>> walls, InstructionSet set) noexcept {
-  switch (set) {
-    case InstructionSet::baseline:
-      return sift_baseline(walls);
-    case InstructionSet::avx2:
-      return sift_avx2(walls);
-    case InstructionSet::avx512:
-      return sift_avx512(walls);
-  }
-}
-
-#else
-
-template <class T>
-void MotionBunch<T>::sift(std::span<const WallOf<T>> walls, InstructionSet /*set*/) noexcept {
-  sift_baseline(walls);
-}
-
 #endif
+
+template <class T>
+void MotionBunch<T>::sift(std::span<const WallOf<T>> walls, [[maybe_unused]] InstructionSet set) noexcept {
+#if defined(__x86_64__) && !defined(WARREN_PLAIN)
+  if (set == InstructionSet::avx512) return sift_avx512(walls);
+  if (set == InstructionSet::avx2) return sift_avx2(walls);
+#endif
+  sift_with<16>(walls);
+}
 
 template class MotionBunch<float>;
 template class MotionBunch<double>;
@@ -185,25 +168,21 @@ struct FiledWall {
 template <class T, class Filed>
 WallStatistics statistics_of(std::size_t n, const Filed& filed, const Execution& execution) {
   constexpr std::size_t grain = std::size_t{1} << 16;
-  struct Part {
-    Box box;
-    double length = 0.0;
-  };
   const auto length_of = [](const Segment& s) { return std::max(std::abs(s.b.x - s.a.x), std::abs(s.b.y - s.a.y)); };
-  const std::vector<Part> parts = parts_of_chunks(n, grain, execution, [&](Range r) {
-    Part part;
+  const auto of_chunk = [&](Range r) {
+    WallStatistics part;
     for (std::size_t i = r.first; i < r.last; ++i) {
       const Segment s = filed(i).part;
       part.box.include(box_of(s));
-      part.length += length_of(s);
+      part.total_length += length_of(s);
     }
     return part;
-  });
+  };
   WallStatistics result;
   result.walls = n;
-  for (const Part& part : parts) {
+  for (const WallStatistics& part : parts_of_chunks(n, grain, execution, of_chunk)) {
     result.box.include(part.box);
-    result.total_length += part.length;
+    result.total_length += part.total_length;
   }
   constexpr std::size_t sampled = 1001;
   std::vector<double> lengths;

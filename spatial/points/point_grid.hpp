@@ -41,9 +41,9 @@ inline std::uint64_t near_bits_plain(const double* x, const double* y, std::uint
   return bits;
 }
 
-#if defined(__x86_64__) && !defined(WARREN_PLAIN)
-
+/// The same as fast as the machine allows.
 inline std::uint64_t near_bits(const double* x, const double* y, std::uint32_t count, Vec2 p, double square) {
+#if defined(__x86_64__) && !defined(WARREN_PLAIN)
   const __m128d px = _mm_set1_pd(p.x);
   const __m128d py = _mm_set1_pd(p.y);
   std::uint64_t bits = 0;
@@ -55,15 +55,10 @@ inline std::uint64_t near_bits(const double* x, const double* y, std::uint32_t c
     bits |= as_whole<std::uint64_t>(near) << i;
   }
   return bits & (~std::uint64_t{0} >> (64 - count));
-}
-
 #else
-
-inline std::uint64_t near_bits(const double* x, const double* y, std::uint32_t count, Vec2 p, double square) {
   return near_bits_plain(x, y, count, p, square);
-}
-
 #endif
+}
 
 }  // namespace warren::detail
 
@@ -217,7 +212,9 @@ class PointGrid : public NeighboursByVisits<PointGrid, 2> {
     template <class Visit>
     void visit_later(std::uint32_t place, double square, const Visit& visit) const {
       for (std::uint32_t from = place - first_ + 1; from < count_; from += 64) {
-        for (std::uint64_t near = near_bits(from, grid_.points_[place], square); near != 0; near &= near - 1)
+        const std::uint32_t count = std::min(count_ - from, 64U);
+        std::uint64_t near = detail::near_bits(&x_[from], &y_[from], count, grid_.points_[place], square);
+        for (; near != 0; near &= near - 1)
           visit(place, place_[from + as_whole<std::uint32_t>(std::countr_zero(near))]);
       }
     }
@@ -233,12 +230,6 @@ class PointGrid : public NeighboursByVisits<PointGrid, 2> {
         y_[count_] = grid_.points_[begin].y;
         place_[count_] = begin;
       }
-    }
-
-    /// Bit i is set if the squared distance of candidate from + i is <= square, for up to 64 of them.
-    std::uint64_t near_bits(std::uint32_t from, Vec2 p, double square) const {
-      const std::uint32_t count = std::min(count_ - from, 64U);
-      return detail::near_bits(&x_[from], &y_[from], count, p, square);
     }
 
     const PointGrid& grid_;

@@ -8,10 +8,6 @@
 #include "parallel/sort.hpp"
 
 namespace warren {
-namespace {
-constexpr std::size_t order_grain = std::size_t{1} << 15;
-}  // namespace
-
 CellFrame::CellFrame(const Box& box, std::size_t count) {
   if (count == 0 || box.empty()) return;
   const double width = box.width();
@@ -28,7 +24,8 @@ CellFrame::CellFrame(const Box& box, std::size_t count) {
 }
 
 Box bounding_box(std::span<const Vec2> positions, const Execution& execution) {
-  const std::vector<Box> boxes = parts_of_chunks(positions.size(), order_grain, execution.quiet(), [&](Range range) {
+  constexpr std::size_t grain = std::size_t{1} << 15;
+  const std::vector<Box> boxes = parts_of_chunks(positions.size(), grain, execution.quiet(), [&](Range range) {
     return box_around(positions.subspan(range.first, range.size()));
   });
   Box all;

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "scenes/files/image_io.hpp"
-#include "scenes/files/moving_ai_io.hpp"
+#include "scenes/files/plane_formats_io.hpp"
 #include "scenes/files/read_world_io.hpp"
 #include "scenes/files/ros_map_io.hpp"
 #include "tests/fuzz/fuzz_reader.hpp"

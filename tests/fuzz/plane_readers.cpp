@@ -3,14 +3,11 @@
 // what has a writer of its own, by that too.
 #include <array>
 
-#include "scenes/files/geojson_io.hpp"
 #include "scenes/files/maze_file_io.hpp"
-#include "scenes/files/micromouse_io.hpp"
 #include "scenes/files/npy_io.hpp"
+#include "scenes/files/plane_formats_io.hpp"
 #include "scenes/files/read_world_io.hpp"
-#include "scenes/files/ring_lists_io.hpp"
 #include "scenes/files/scene_io.hpp"
-#include "scenes/files/wkt_io.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "tests/fuzz/fuzz_reader.hpp"
 #include "tests/fuzz/properties.hpp"

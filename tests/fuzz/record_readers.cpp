@@ -4,9 +4,7 @@
 #include <cmath>
 
 #include "core/base/types.hpp"
-#include "scenes/arms/dh_table_io.hpp"
-#include "scenes/arms/mesh_io.hpp"
-#include "scenes/arms/urdf_io.hpp"
+#include "scenes/arms/arm_files_io.hpp"
 #include "scenes/files/read_world_io.hpp"
 #include "scenes/scene/convex_hull.hpp"
 #include "solve/answer/read_answer_io.hpp"

@@ -22,12 +22,12 @@ namespace {
 namespace http = boost::beast::http;
 
 /// The service of a few walls and a polygon; paths and tiles that were asked for stay, as in a service.
-serve::WorldService& small_service() {
+serve::HttpService& small_service() {
   constexpr const char* town =
       "bounds 0 0 100 60\nwall 10 10 50 40\npolygon 60 10 90 10 90 50 60 50\nstart 5 30\ngoal 95 30\n";
   static const serve::ServedWorld world(read_scene(InputFile::of_bytes("town.scene", town), {}), {}, fuzz_execution());
-  static serve::WorldService service(world, {.budget_s = 1.0, .threads = 1});
-  return service;
+  static const auto service = serve::world_service(world, {.budget_s = 1.0, .threads = 1});
+  return *service;
 }
 
 /// As the server reads it, but in one piece. Throws HttpError.
@@ -54,9 +54,9 @@ serve::HttpRequest request_in(std::string_view bytes) {
 serve::HttpResponse answer_to(std::string_view bytes) {
   try {
     const serve::HttpRequest request = request_in(bytes);
-    serve::WorldService& service = small_service();
+    serve::HttpService& service = small_service();
     if (request.body.size() > service.most_body(request))
-      return serve::error_response(413, "body_too_large", "body", "large");
+      return serve::error_response({413, "body_too_large", "body", "large"});
     if (auto said = service.at_once(request, {})) return std::move(*said);
     const SignalFlag gone{0};
     return serve::answer_of(service, request, gone);

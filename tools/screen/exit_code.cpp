@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -13,6 +14,7 @@
 #include <ctime>
 #include <exception>
 #include <new>
+#include <string>
 #include <system_error>
 
 #include "core/base/error.hpp"
@@ -66,19 +68,6 @@ void stop_at(int number) {
   ::sigaction(number, &action, nullptr);  // no SA_RESTART: a read that waits for input must return
 }
 
-bool is_ignored(int number) {
-  struct sigaction action {};
-  return ::sigaction(number, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
-}
-
-int report_bug(std::string_view program, std::string_view what) {
-  return complain(
-      program, exit_code::internal,
-      fmt::format("internal error: {}\nwarren: this is a bug. Please report it with the whole command line, "
-                  "the input file and the output of 'warren --version'.",
-                  printable(what)));
-}
-
 /// Where the reader of our standard output has gone, say nothing and end as other programs do.
 void die_if_unheard() {
   pollfd out{STDOUT_FILENO, POLLOUT, 0};
@@ -97,12 +86,21 @@ void die_if_unheard() {
   std::abort();
 }
 
+std::string_view environment(const char* name) {
+  const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): nothing here sets variables
+  return value == nullptr ? std::string_view{} : std::string_view{value};
+}
+
+bool forces(std::string_view value) { return !value.empty() && value != "0"; }
+
 }  // namespace
 
 void install_signal_handlers() {
   stop_at(SIGINT);
   stop_at(SIGTERM);
-  if (!is_ignored(SIGHUP)) stop_at(SIGHUP);  // nohup has said so
+  struct sigaction hang_up {};
+  const bool is_ignored = ::sigaction(SIGHUP, nullptr, &hang_up) == 0 && hang_up.sa_handler == SIG_IGN;
+  if (!is_ignored) stop_at(SIGHUP);  // nohup has said so
   std::signal(SIGPIPE, SIG_DFL);
   std::signal(SIGXFSZ, SIG_IGN);  // the write that is too long fails, as on a full disk
   struct sigaction lost {};
@@ -142,7 +140,11 @@ int run_with_errors_told(std::string_view program, std::string_view hint, const 
   } catch (const std::bad_alloc&) {
     return say_memory_is_out();
   } catch (const std::exception& error) {
-    return report_bug(program, error.what());
+    return complain(
+        program, exit_code::internal,
+        fmt::format("internal error: {}\nwarren: this is a bug. Please report it with the whole command line, "
+                    "the input file and the output of 'warren --version'.",
+                    printable(error.what())));
   }
 }
 
@@ -169,5 +171,32 @@ int say_memory_is_out() noexcept {
 }
 
 void install_last_words() { std::set_terminate(end_at_once); }
+
+bool wants_color(int descriptor, ColorMode mode) {
+  if (mode != ColorMode::automatic) return mode == ColorMode::always;
+  if (!environment("NO_COLOR").empty()) return false;
+  if (forces(environment("CLICOLOR_FORCE")) || forces(environment("FORCE_COLOR"))) return true;
+  return environment("TERM") != "dumb" && ::isatty(descriptor) == 1;
+}
+
+ProgressMode resolved(ProgressMode mode) {
+  if (mode != ProgressMode::automatic) return mode;
+  const bool can_erase = ::isatty(STDERR_FILENO) == 1 && environment("TERM") != "dumb";
+  return can_erase ? ProgressMode::bar : ProgressMode::none;
+}
+
+std::size_t terminal_width() {
+  constexpr std::size_t usual = 80;
+  const int columns = std::atoi(std::string{environment("COLUMNS")}.c_str());
+  if (columns > 0) return static_cast<std::size_t>(columns);
+  winsize size{};
+  if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return size.ws_col;
+  return usual;
+}
+
+void print_text(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size()) return;
+  throw WriteError("standard output", std::generic_category().message(errno));
+}
 
 }  // namespace warren::tools

@@ -63,7 +63,7 @@ std::string folder_of(const std::string& path) {
 void check_picture_ending(std::string_view option, const std::string& file, std::string_view endings) {
   const std::string ending = ending_of(file);
   if (ending.empty() && (file.empty() || is_written_straight(file))) return;
-  if (fmt::format(" {} ", endings).find(" " + ending + " ") != std::string::npos) return;
+  if (is_among(ending, endings)) return;
   throw UsageError(fmt::format("{}: a picture here ends in one of: {} (found: '{}')", option, endings, file));
 }
 
@@ -139,15 +139,6 @@ std::vector<NamedFile> outputs_of(const Arguments& arguments) {
   return files;
 }
 
-std::vector<NamedFile> inputs_of(const Arguments& arguments) {
-  std::vector<NamedFile> files;
-  for (std::size_t i = 0; i < arguments.operand_count(); ++i) files.push_back({"an operand", arguments.operand(i)});
-  for (const std::string_view option : input_options) {
-    for (std::string& path : arguments.values(option)) files.push_back({std::string{option}, std::move(path)});
-  }
-  return files;
-}
-
 /// At most one of these files is "-".
 void check_standard_stream(const std::vector<NamedFile>& files, std::string_view refusal) {
   const NamedFile* taker = nullptr;
@@ -170,13 +161,6 @@ bool is_picture_name(const Arguments& arguments, std::string_view name) {
   return false;
 }
 
-/// Is that the name of a figure that `compare --figures FILE` may write?
-bool is_figure_name(const std::string& file, std::string_view name) {
-  const std::string ending = ending_of(file);
-  const std::string own = name_in_folder(file);
-  return name.ends_with(ending) && name.starts_with(own.substr(0, own.size() - ending.size()) + "-");
-}
-
 /// No picture that `option` writes into `folder` may take the place of any of these files.
 void check_many(std::string_view option, const std::string& folder, const std::vector<NamedFile>& files,
                 const std::function<bool(std::string_view)>& may_be_written) {
@@ -190,16 +174,6 @@ void check_many(std::string_view option, const std::string& folder, const std::v
     if (beside && may_be_written(name_in_folder(real))) {
       throw UsageError(fmt::format("{}: {} may be the name of one of the pictures", option, file.path));
     }
-  }
-}
-
-void check_pictures(const Arguments& arguments, const std::vector<NamedFile>& files) {
-  if (const auto folder = arguments.value("--pictures")) {
-    check_many("--pictures", *folder, files, [&](std::string_view name) { return is_picture_name(arguments, name); });
-  }
-  if (const auto file = arguments.value("--figures")) {
-    check_many("--figures", folder_of(*file), files,
-               [&](std::string_view name) { return is_figure_name(*file, name); });
   }
 }
 
@@ -289,11 +263,24 @@ void check_outputs(const Arguments& arguments) {
       }
     }
   }
-  const std::vector<NamedFile> inputs = inputs_of(arguments);
+  std::vector<NamedFile> inputs;
+  for (std::size_t i = 0; i < arguments.operand_count(); ++i) inputs.push_back({"an operand", arguments.operand(i)});
+  for (const std::string_view option : input_options) {
+    for (std::string& path : arguments.values(option)) inputs.push_back({std::string{option}, std::move(path)});
+  }
   check_standard_stream(inputs, "{} and {} can't both come from standard input");
   for (const NamedFile& input : inputs) check_not_written(arguments, input.path);
   files.insert(files.end(), inputs.begin(), inputs.end());
-  check_pictures(arguments, files);
+  if (const auto folder = arguments.value("--pictures")) {
+    check_many("--pictures", *folder, files, [&](std::string_view name) { return is_picture_name(arguments, name); });
+  }
+  if (const auto file = arguments.value("--figures")) {
+    const std::string ending = ending_of(*file);
+    const std::string own = name_in_folder(*file);
+    const std::string begin = own.substr(0, own.size() - ending.size()) + "-";
+    check_many("--figures", folder_of(*file), files,
+               [&](std::string_view name) { return name.ends_with(ending) && name.starts_with(begin); });
+  }
 }
 
 void check_not_written(const Arguments& arguments, const std::string& input) {

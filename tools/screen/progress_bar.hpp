@@ -17,7 +17,7 @@
 #include "core/run/execution.hpp"
 #include "parallel/once.hpp"
 #include "parallel/ticker.hpp"
-#include "tools/screen/terminal.hpp"
+#include "tools/screen/exit_code.hpp"
 
 namespace warren::tools {
 

@@ -14,8 +14,8 @@
 #include "core/base/page_pool.hpp"
 #include "core/run/execution.hpp"
 #include "core/run/trace.hpp"
+#include "scenes/text/human_units.hpp"
 #include "tools/screen/progress_bar.hpp"
-#include "tools/screen/terminal.hpp"
 #include "tools/words/command.hpp"
 
 namespace warren::tools {

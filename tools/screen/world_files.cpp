@@ -16,7 +16,7 @@
 #include "pictures/draw_roadmap.hpp"
 #include "pictures/formats/write_picture.hpp"
 #include "pictures/layers/draw_cells.hpp"
-#include "scenes/arms/moveit_io.hpp"
+#include "scenes/arms/arm_files_io.hpp"
 #include "scenes/files/maze_file_io.hpp"
 #include "scenes/files/npy_io.hpp"
 #include "scenes/files/read_world_io.hpp"
@@ -40,15 +40,6 @@ constexpr OptionSpec world_specs[] = {
      choices_of<MapServerRules>},
     {"--request", "FILE", "a request of MoveIt (YAML): start and goal of the arm"},
 };
-
-void tell_of_grey(const OccupancyMap& map) {
-  say_on_standard_error(
-      printable(fmt::format("warren: note: {}: {} of grey 205, by which map_saver means unknown, {} free by "
-                            "free_thresh; below 0.196 they stay "
-                            "unknown",
-                            map.source, counted(map.grey_free, "pixel", "pixels"), map.grey_free == 1 ? "is" : "are")) +
-      "\n");
-}
 
 [[noreturn]] void refuse_rules(const std::string& source) {
   throw UsageError(fmt::format("--map-rules: is for the YAML of map_server, and {} is none", source));
@@ -132,7 +123,13 @@ Scene load_world(const InputFile& file, const Arguments& arguments, const Execut
   Scene scene = read_scene(file, execution, asked.value_or(MapServerRules::nav2));
   if (asked && !(scene.map && scene.map->format == MapFormat::ros)) refuse_rules(file.name());
   if (scene.map) check_not_written(arguments, scene.map->image);
-  if (scene.map && scene.map->grey_free > 0 && !arguments.has("--quiet")) tell_of_grey(*scene.map);
+  if (const std::uint64_t grey = scene.map ? scene.map->grey_free : 0; grey > 0 && !arguments.has("--quiet")) {
+    say_on_standard_error(
+        printable(fmt::format("warren: note: {}: {} of grey 205, by which map_saver means unknown, "
+                              "{} free by free_thresh; below 0.196 they stay unknown",
+                              scene.map->source, counted(grey, "pixel", "pixels"), grey == 1 ? "is" : "are")) +
+        "\n");
+  }
   if (const auto name = arguments.value("--request")) {
     check_not_written(arguments, *name);
     const ArmFiles before = scene.arm.value_or(ArmFiles{});

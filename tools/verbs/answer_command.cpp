@@ -96,8 +96,8 @@ void AnswerCommand::answer(const Run& run) {
 void AnswerCommand::write_outputs(Run& run) {
   if (explains()) {
     explain_in_time(answer_, [&] {
-      if (answer_.world.kind.empty()) return explain_stop(answer_);
-      explain(run.execution(), answer_, by_products_);
+      if (!answer_.world.kind.empty()) return explain(run.execution(), answer_, by_products_);
+      answer_.explained.emplace().hints = hints_for(Scene(), {.options = SolveOptions()}, answer_);  // nobody read it
     });
   }
   if (answer_.outcome != Outcome::stopped) {

@@ -20,7 +20,7 @@
 #include "core/run/execution.hpp"
 #include "parallel/chunks.hpp"
 #include "planners/grid/grid_search.hpp"
-#include "scenes/files/moving_ai_io.hpp"
+#include "scenes/files/plane_formats_io.hpp"
 #include "scenes/scene/occupancy_map.hpp"
 #include "scenes/text/human_units.hpp"
 #include "scenes/text/output_file_io.hpp"
@@ -28,7 +28,6 @@
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"
-#include "tools/screen/terminal.hpp"
 #include "tools/words/command.hpp"
 
 namespace warren::tools {
@@ -86,28 +85,6 @@ ScenarioTrial timed_search(GridSearch& search, const Bitmap& blocked, Cell start
   return trial;
 }
 
-/// Those of a range, with a search of their own; another where they change between land and water.
-void search_range(const OccupancyMap& map, const std::string& file, Range range,
-                  std::vector<CheckedScenario>& scenarios, const Execution& execution) {
-  std::optional<GridSearch> search;
-  Bitmap blocked;
-  bool on_water = false;
-  for (std::size_t i = range.first; i < range.last; ++i) {
-    CheckedScenario& checked = scenarios[i];
-    const Cell start = cell_of(map, checked.scenario, checked.scenario.start, file);
-    const Cell goal = cell_of(map, checked.scenario, checked.scenario.goal, file);
-    const bool water = !map.water.empty() && map.water.test(start.x, start.y);
-    if (!search || water != on_water) {
-      blocked = blocked_from(map, start);
-      search.emplace(blocked);
-      on_water = water;
-    }
-    checked.astar = timed_search(*search, blocked, start, goal, GridMethod::astar, execution);
-    checked.jumps = timed_search(*search, blocked, start, goal, GridMethod::jump_points, execution);
-    execution.check();
-  }
-}
-
 struct ScenarioTotals {
   std::size_t differing = 0;
   double astar_s = 0.0;
@@ -143,14 +120,31 @@ std::vector<CheckedScenario> check_scenarios(const OccupancyMap& map, const std:
                                              const std::string& file, const Execution& execution) {
   constexpr std::size_t parts = 128;
   constexpr std::size_t least_part = 4;
-  std::vector<CheckedScenario> checked;
-  for (const Scenario& scenario : scenarios) checked.push_back({scenario});
+  std::vector<CheckedScenario> all;
+  for (const Scenario& scenario : scenarios) all.push_back({scenario});
   const std::size_t part = std::max(least_part, chunk_count(scenarios.size(), parts));
   double unused = 0.0;
   const StageTimer timer(execution, "scenarios", unused, scenarios.size());
-  for_chunks(scenarios.size(), part, execution,
-             [&](Range range) { search_range(map, file, range, checked, execution); });
-  return checked;
+  for_chunks(scenarios.size(), part, execution, [&](Range range) {
+    std::optional<GridSearch> search;  // another one where they change between land and water
+    Bitmap blocked;
+    bool on_water = false;
+    for (std::size_t i = range.first; i < range.last; ++i) {
+      CheckedScenario& checked = all[i];
+      const Cell start = cell_of(map, checked.scenario, checked.scenario.start, file);
+      const Cell goal = cell_of(map, checked.scenario, checked.scenario.goal, file);
+      const bool water = !map.water.empty() && map.water.test(start.x, start.y);
+      if (!search || water != on_water) {
+        blocked = blocked_from(map, start);
+        search.emplace(blocked);
+        on_water = water;
+      }
+      checked.astar = timed_search(*search, blocked, start, goal, GridMethod::astar, execution);
+      checked.jumps = timed_search(*search, blocked, start, goal, GridMethod::jump_points, execution);
+      execution.check();
+    }
+  });
+  return all;
 }
 
 /// The scenarios of the file that differ, at most 50 of them, and a line of totals.

@@ -93,13 +93,6 @@ constexpr OptionSpec update_specs[] = {
     roadmap_world_option,
 };
 
-std::string report_of(const UpdateAccount& a) {
-  return fmt::format(
-      "{{\"schema\": \"warren.update/1\",\n \"mode\": \"{}\",\n \"edges\": {},\n \"edges_checked\": {},\n "
-      "\"states_added\": {},\n \"states_dropped\": {}}}\n",
-      a.built_anew ? "built" : "changed", a.edges, a.edges_checked, a.states_added, a.states_dropped);
-}
-
 int update_roadmap(const Arguments& arguments) {
   const auto file = output_file(arguments, "--output");
   if (!file) throw UsageError("-o FILE is missing");
@@ -112,7 +105,11 @@ int update_roadmap(const Arguments& arguments) {
   std::optional<OutputFile> told;  // whole before the roadmap takes its place
   if (report) {
     told.emplace(*report, run.execution());
-    told->write(report_of(account));
+    told->write(fmt::format(
+        "{{\"schema\": \"warren.update/1\",\n \"mode\": \"{}\",\n \"edges\": {},\n \"edges_checked\": {},\n "
+        "\"states_added\": {},\n \"states_dropped\": {}}}\n",
+        account.built_anew ? "built" : "changed", account.edges, account.edges_checked, account.states_added,
+        account.states_dropped));
     told->complete();
   }
   FirstOfTwoFiles first(*file);

@@ -105,24 +105,6 @@ studies::OmplExperiment experiment_of(const Arguments& arguments, const CompareO
   return e;
 }
 
-void write_outputs_of_compare(const Arguments& arguments, const studies::Comparison& comparison,
-                              const Execution& execution) {
-  const bool was_stopped = comparison.stopped.has_value();
-  write_report(arguments, "--json", [&] { return studies::comparison_json(comparison); });
-  write_report(arguments, "--csv", [&] { return studies::comparison_csv(comparison); });
-  write_report(arguments, "--runs", [&] { return studies::comparison_runs(comparison); });
-  write_plots(arguments, execution, was_stopped, [&] { return studies::comparison_plots(comparison); });
-  if (arguments.value("--curves").value_or("").ends_with(".csv")) {
-    write_report(arguments, "--curves", [&] { return studies::comparison_curves(comparison); });
-  } else {
-    const auto curves = [&] { return PlotsPage{studies::curve_panels(comparison), 2}; };
-    write_plots(arguments, execution, was_stopped, curves, "--curves");
-  }
-  write_report(arguments, "--html", [&] { return studies::comparison_page(comparison, arguments.command_line()); });
-  write_report(arguments, "--table",
-               [&] { return studies::comparison_document(comparison, ending_of(*arguments.value("--table"))); });
-}
-
 /// A comparison in which nobody found a path has no answer; one whose planners succeed now and then is what was asked.
 int exit_code(const studies::Comparison& comparison, bool has_graph) {
   if (comparison.stopped) return exit_code_of(*comparison.stopped);
@@ -152,7 +134,20 @@ int compare(const Arguments& arguments) {
       if (!note.empty()) comparison.notes.push_back(std::move(note));
     }
   }
-  write_outputs_of_compare(arguments, comparison, run.execution());
+  const bool was_stopped = comparison.stopped.has_value();
+  write_report(arguments, "--json", [&] { return studies::comparison_json(comparison); });
+  write_report(arguments, "--csv", [&] { return studies::comparison_csv(comparison); });
+  write_report(arguments, "--runs", [&] { return studies::comparison_runs(comparison); });
+  write_plots(arguments, run.execution(), was_stopped, [&] { return studies::comparison_plots(comparison); });
+  if (arguments.value("--curves").value_or("").ends_with(".csv")) {
+    write_report(arguments, "--curves", [&] { return studies::comparison_curves(comparison); });
+  } else {
+    const auto curves = [&] { return PlotsPage{studies::curve_panels(comparison), 2}; };
+    write_plots(arguments, run.execution(), was_stopped, curves, "--curves");
+  }
+  write_report(arguments, "--html", [&] { return studies::comparison_page(comparison, arguments.command_line()); });
+  write_report(arguments, "--table",
+               [&] { return studies::comparison_document(comparison, ending_of(*arguments.value("--table"))); });
   write_report(arguments, "--log", [&] {
     return studies::ompl_log(comparison, experiment_of(arguments, options, run.execution(), begin));
   });
@@ -189,26 +184,12 @@ bool is_list(const Arguments& arguments, std::string_view option) {
   return arguments.value(option).value_or("").find(',') != std::string::npos;
 }
 
-studies::DealtOption dealt_words(Option option, std::string_view name, const std::string& text) {
-  studies::DealtOption dealt{option, {}};
-  for (const std::string& word : list_value(name, text)) {
-    dealt.values.push_back({word, solve_words(Arguments::of(option_flag(option), word))});
-  }
-  return dealt;
-}
-
-/// Milestones are joined by one of them, so both can't be dealt.
-void check_joining(const Arguments& arguments) {
-  if (!arguments.has("--neighbours") || !arguments.has("--radius")) return;
-  for (const std::string_view option : {"--neighbours", "--radius"}) {
-    if (!is_list(arguments, option)) continue;
-    throw UsageError(fmt::format("{}: milestones are joined by --neighbours or by --radius; give one of them", option));
-  }
-}
-
 /// Options with one value go to all contenders, those with several are dealt. Throws UsageError.
 studies::PlannerDeal deal_words(const Arguments& arguments, std::vector<PlannerKind> planners, DealKind kind) {
-  check_joining(arguments);
+  for (const std::string_view option : {"--neighbours", "--radius"}) {
+    if (!arguments.has("--neighbours") || !arguments.has("--radius") || !is_list(arguments, option)) continue;
+    throw UsageError(fmt::format("{}: milestones are joined by --neighbours or by --radius; give one of them", option));
+  }
   studies::PlannerDeal deal;
   deal.planners = std::move(planners);
   std::vector<std::string_view> taken{"--seed"};
@@ -222,9 +203,12 @@ studies::PlannerDeal deal_words(const Arguments& arguments, std::vector<PlannerK
     const auto text = arguments.value(name);
     const bool always = named_list || option == Option::samples;  // which "auto" is no option of, but a value
     if (!text || (!always && !is_list(arguments, name))) continue;
-    deal.lists.push_back(dealt_words(option, name, *text));
+    studies::DealtOption& dealt = deal.lists.emplace_back(studies::DealtOption{option, {}});
+    for (const std::string& word : list_value(name, *text)) {
+      dealt.values.push_back({word, solve_words(Arguments::of(flag, word))});
+    }
     taken.push_back(flag);
-    if (kind == DealKind::graph && deal.lists.back().values.size() > 1) {
+    if (kind == DealKind::graph && dealt.values.size() > 1) {
       throw UsageError(fmt::format("{}: searches run on one graph; give one value", flag));
     }
   }
@@ -357,13 +341,6 @@ std::optional<studies::SizeSweepOptions> sweep_options(const Arguments& argument
   options.seeds = count_or(arguments, "--seeds", usual_graphs);
   options.first_seed = first_seed(arguments);
   return options;
-}
-
-/// What a world would take is refused where there is none.
-void refuse_world_options(const Arguments& arguments) {
-  constexpr std::string_view why = "is about a world; give WORLD, too";
-  arguments.refuse(passed_specs(), why);
-  arguments.refuse({"--graph", "--samplers", "--samples", "--map-rules", "--request", "--pictures"}, why);
 }
 
 /// Options of the world's graph; checked for the planners that may make it, so far as that needs no world.
@@ -521,7 +498,9 @@ CompareOptions compare_options(const Arguments& arguments) {
   if (options.world) {
     take_graph_options(arguments, options);
   } else {
-    refuse_world_options(arguments);
+    constexpr std::string_view why = "is about a world; give WORLD, too";
+    arguments.refuse(passed_specs(), why);
+    arguments.refuse({"--graph", "--samplers", "--samples", "--map-rules", "--request", "--pictures"}, why);
   }
   return options;
 }

@@ -11,7 +11,6 @@
 
 #include "core/base/printable.hpp"
 #include "tools/screen/exit_code.hpp"
-#include "tools/screen/terminal.hpp"
 #include "tools/verbs/example_files.hpp"
 #include "tools/words/command.hpp"
 #include "tools/words/option_values.hpp"

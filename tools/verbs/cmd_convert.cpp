@@ -2,7 +2,6 @@
 // warren convert: any world into any format that can hold it; maps become border walls, walls become cells.
 #include <fmt/format.h>
 
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -20,7 +19,6 @@
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"
-#include "tools/screen/terminal.hpp"
 #include "tools/screen/world_files.hpp"
 #include "tools/words/command.hpp"
 #include "tools/words/option_values.hpp"
@@ -96,17 +94,11 @@ std::string write_any(Scene& scene, const std::string& file, const Arguments& ar
   return is_picture(ending_of(file)) ? std::string() : note_of_left_out(scene, file);
 }
 
-/// Throws as check_world_file does; a YAML has its image beside it.
-void check_map_or_world_file(const std::string& file) {
-  if (!is_map_ending(file)) return check_world_file(file);
-  check_writable(file);
-  if (file.ends_with(".yaml")) check_writable(map_image_of(file));
-}
-
 int convert(const Arguments& arguments) {
   const auto file = arguments.value("--output");
   if (!file) throw UsageError("-o FILE is missing");
-  check_map_or_world_file(*file);
+  is_map_ending(*file) ? check_writable(*file) : check_world_file(*file);
+  if (file->ends_with(".yaml")) check_writable(map_image_of(*file));
   if (arguments.has("--simplify")) return simplify_graph(arguments, *file);
   arguments.refuse({"--world", "--robot", "--clearance"}, "is for --simplify");
   if (!is_map_ending(*file) && !file->ends_with(".png") && arguments.has("--cell")) {

@@ -14,7 +14,6 @@
 #include "scenes/text/output_file_io.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
-#include "tools/screen/terminal.hpp"
 #include "tools/verbs/example_files.hpp"
 #include "tools/words/command.hpp"
 #include "tools/words/option_values.hpp"

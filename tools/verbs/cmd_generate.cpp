@@ -18,7 +18,6 @@
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"
-#include "tools/screen/terminal.hpp"
 #include "tools/screen/world_files.hpp"
 #include "tools/words/command.hpp"
 #include "tools/words/option_values.hpp"
@@ -67,18 +66,17 @@ PolygonOptions polygon_options(const Arguments& arguments) {
 }
 
 /// A maze whose walls nobody needs to hold, as .maze or, of mst, as .npy.
-void generate_maze_file(const MazeOptions& options, bool merged, const std::string& file, const Execution& execution) {
-  if (options.algorithm == MazeAlgorithm::mst) {
+int generate_packed(const MazeOptions& options, bool merged, const std::string& file, Run& run) {
+  const Execution& execution = run.execution();
+  double seconds = 0.0;
+  run.in_stage("generate", seconds, [&] {
+    if (options.algorithm != MazeAlgorithm::mst) {
+      return write_maze_file(HeldCells(generate_maze(options, execution), CellBits::usual_side_log2), file, execution);
+    }
     const SpanningMaze maze(options.rows, options.cols, options.seed, options.loops, execution);
     if (ending_of(file) == ".npy") return write_npy(WallStrips(maze, merged, execution), file, execution);
-    return write_maze_file(maze, file, execution);
-  }
-  write_maze_file(HeldCells(generate_maze(options, execution), CellBits::usual_side_log2), file, execution);
-}
-
-int generate_packed(const MazeOptions& options, bool merged, const std::string& file, Run& run) {
-  double seconds = 0.0;
-  run.in_stage("generate", seconds, [&] { generate_maze_file(options, merged, file, run.execution()); });
+    write_maze_file(maze, file, execution);
+  });
   run.end();
   if (!run.quiet()) {
     print_text(fmt::format("{}: {} x {} maze, generated and written in {}\n", run.palette().strong(file), options.rows,

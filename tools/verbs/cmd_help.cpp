@@ -13,7 +13,6 @@
 #include "core/base/error.hpp"
 #include "scenes/text/output_file_io.hpp"
 #include "tools/screen/exit_code.hpp"
-#include "tools/screen/terminal.hpp"
 #include "tools/words/command.hpp"
 #include "tools/words/help.hpp"
 
@@ -50,13 +49,6 @@ std::string escaped(std::string_view text) {
   return out.starts_with('.') || out.starts_with('\'') ? "\\&" + out : out;
 }
 
-std::string page_date() {
-  std::time_t when = std::time(nullptr);
-  // NOLINTNEXTLINE(concurrency-mt-unsafe): nothing here sets variables
-  if (const char* epoch = std::getenv("SOURCE_DATE_EPOCH")) when = std::strtoll(epoch, nullptr, 10);
-  return fmt::format("{:%Y-%m-%d}", fmt::gmtime(when));
-}
-
 constexpr OptionSpec man_specs[] = {{"--folder", "FOLDER", "write all pages there instead, as files"}};
 
 std::string head_of(std::string_view name, std::string_view summary) {
@@ -64,8 +56,11 @@ std::string head_of(std::string_view name, std::string_view summary) {
   for (char& c : capitals) {
     if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
   }
-  return fmt::format(".TH {} 1 {} \"warren {}\" \"User Commands\"\n.SH NAME\n{} \\- {}\n", escaped(capitals),
-                     page_date(), WARREN_VERSION, escaped(name), escaped(summary));
+  std::time_t when = std::time(nullptr);
+  // NOLINTNEXTLINE(concurrency-mt-unsafe): nothing here sets variables
+  if (const char* epoch = std::getenv("SOURCE_DATE_EPOCH")) when = std::strtoll(epoch, nullptr, 10);
+  return fmt::format(".TH {} 1 {:%Y-%m-%d} \"warren {}\" \"User Commands\"\n.SH NAME\n{} \\- {}\n", escaped(capitals),
+                     fmt::gmtime(when), WARREN_VERSION, escaped(name), escaped(summary));
 }
 
 std::string option_section(const OptionSpec& option) {

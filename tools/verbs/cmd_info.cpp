@@ -10,7 +10,6 @@
 #include <system_error>
 #include <utility>
 
-#include "core/base/error.hpp"
 #include "core/base/printable.hpp"
 #include "scenes/files/maze_file_io.hpp"
 #include "scenes/files/read_world_io.hpp"
@@ -24,7 +23,6 @@
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"
-#include "tools/screen/terminal.hpp"
 #include "tools/screen/world_files.hpp"
 #include "tools/words/command.hpp"
 
@@ -72,11 +70,6 @@ std::vector<Fact> packed_facts(const Scene& scene, const InputFile& file, const 
   return facts;
 }
 
-bool is_urdf(const InputFile& file) {
-  constexpr std::size_t head = 4096;
-  return file.bytes().substr(0, head).find("<robot") != std::string_view::npos;
-}
-
 std::vector<Fact> robot_facts(const std::string& path, const Arguments& arguments, const Execution& execution) {
   RobotSpec robot{.kind = RobotKind::urdf, .files = ArmFiles{.urdf = path}};
   const auto said = [&](std::string_view option) { return std::string(arguments.value(option).value_or("")); };
@@ -108,7 +101,8 @@ int info(const Arguments& arguments) {
   std::optional<InputFile> file;
   if (!is_made_source(path)) file.emplace(path, run.execution());
   auto roadmap = file ? opened_roadmap(*file, path, run.execution()) : nullptr;
-  const bool is_robot = file && roadmap == nullptr && is_urdf(*file);
+  constexpr std::size_t head = 4096;
+  const bool is_robot = file && roadmap == nullptr && file->bytes().substr(0, head).find("<robot") != std::string::npos;
   if (roadmap == nullptr) arguments.refuse({"--check"}, "is for roadmap files; others are checked as they are read");
   if (!is_robot) arguments.refuse({"--srdf", "--group", "--package-path"}, "is for a URDF");
   if (roadmap != nullptr) {

@@ -21,7 +21,7 @@
 #include "scenes/scene/scene.hpp"
 #include "scenes/text/human_units.hpp"
 #include "solve/answer/answer.hpp"
-#include "solve/answer/stage_lines.hpp"
+#include "solve/answer/explanation_text.hpp"
 #include "solve/question/question.hpp"
 #include "solve/question/solve_options.hpp"
 #include "solve/solve.hpp"
@@ -141,7 +141,7 @@ StageProfile profile_stages(const Scene& scene, const Question& question, const 
 
 std::string profile_summary(const StageProfile& profile, const Palette& palette) {
   const Answer& answer = profile.answer;
-  studies::TextTable table{{"stage", "wall", "share", "CPU", "ns each", "1 thread", "speed-up", "of"}, 1, {}};
+  studies::TextTable table{{"stage", "wall", "share", "CPU", "ns each", "1 thread", "speed-up", "of"}, 1};
   for (const ProfiledStage& stage : profile.stages) table.rows.push_back(row_of(stage, profile.whole.line.wall_s));
   if (profile.runs > 0) table.rows.push_back(row_of(profile.whole, 0.0));
   return fmt::format("{}  {}, {}{}; {} on {}, medians\n{}{} {}\n", palette.strong(answer.world.source),

@@ -16,7 +16,6 @@
 #include "solve/kept/roadmap_file_io.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
-#include "tools/screen/terminal.hpp"
 #include "tools/screen/world_files.hpp"
 #include "tools/verbs/answer_command.hpp"
 #include "tools/words/output_words.hpp"

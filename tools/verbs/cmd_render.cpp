@@ -14,7 +14,6 @@
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"
-#include "tools/screen/terminal.hpp"
 #include "tools/screen/world_files.hpp"
 #include "tools/words/command.hpp"
 #include "tools/words/output_words.hpp"
@@ -39,16 +38,6 @@ void check_animation(const Arguments& arguments, const std::string& file) {
   }
 }
 
-/// Those of the command line, else the answer's, and the world's.
-void take_prices(const Arguments& arguments, const Scene& scene, Question& drawn, const Execution& execution) {
-  Prices asked = price_words(arguments);
-  if (!asked.empty()) drawn.prices = std::move(asked);
-  check_not_written(arguments, drawn.prices);
-  read_masks(drawn.prices, execution);
-  check_not_written(arguments, drawn.prices);
-  drawn.prices = prices_of(scene, drawn);
-}
-
 int render(const Arguments& arguments) {
   const std::string file = arguments.value("--output").value_or("");
   if (!arguments.has("--output")) throw UsageError("-o FILE is missing");
@@ -68,7 +57,12 @@ int render(const Arguments& arguments) {
   RecordedAnswer answer;
   if (answer_file) answer = read_answer(*answer_file, run.execution());
   Scene scene = load_world(arguments.operand(0), arguments, run.execution());
-  take_prices(arguments, scene, answer.problem, run.execution());
+  Prices& prices = answer.problem.prices;  // the command line's, else the answer's; and the world's
+  if (Prices asked = price_words(arguments); !asked.empty()) prices = std::move(asked);
+  check_not_written(arguments, prices);
+  read_masks(prices, run.execution());
+  check_not_written(arguments, prices);
+  prices = prices_of(scene, answer.problem);
   check_not_written(arguments, answer.problem.robot);
   if (answer_file) check_plannable(scene, answer.problem);
   add_map_walls(scene, run.execution());

@@ -17,7 +17,6 @@
 #include "scenes/text/input_file_io.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/run_of_verb.hpp"
-#include "tools/screen/terminal.hpp"
 #include "tools/screen/world_files.hpp"
 #include "tools/words/command.hpp"
 #include "tools/words/option_values.hpp"
@@ -110,17 +109,17 @@ int serve(const Arguments& arguments) {
     }
   }
   const std::unique_ptr<serve::HttpService> service = serve::writable_service(std::move(world), limits, token);
-  serve::HttpServer server(place, {.threads = std::max(2U, run.threads())}, *service);
-  if (limits.writable && !server.is_loopback() && token.empty()) {
+  const auto server = serve::http_server(place, {.threads = std::max(2U, run.threads())}, *service);
+  if (limits.writable && !server->is_loopback() && token.empty()) {
     throw UsageError(
         "--listen: whoever reaches this address could change the world; there --writable needs --token-file");
   }
-  if (!server.is_loopback()) {
+  if (!server->is_loopback()) {
     say_on_standard_error("warren: warning: whoever reaches this address may ask, and see the world\n");
   }
-  print_text(fmt::format("listening on {}\n", server.address()));
+  print_text(fmt::format("listening on {}\n", server->address()));
   if (std::fflush(stdout) != 0) throw WriteError("standard output", "it did not take all");
-  server.run(signal_flag());
+  server->run(signal_flag());
   if (signal_flag() != SIGHUP) return exit_code::success;
   say_on_standard_error(fmt::format("warren: stopped: {}; nohup keeps it\n", text_of(StopReason::hang_up)));
   return exit_code::hung_up;

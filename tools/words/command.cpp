@@ -10,18 +10,6 @@
 #include "tools/words/unknown_words.hpp"
 
 namespace warren::tools {
-namespace {
-
-[[noreturn]] void refuse_unknown(const Command& command, std::string_view name) {
-  for (const auto& [option, why] : command.foreign) {
-    if (own_spelling(name) == option) throw UsageError(fmt::format("{}: {}", name, why));
-  }
-  std::vector<std::string_view> known{"--help"};
-  for (const OptionSpec& option : command.options) known.push_back(option.name);
-  throw UsageError("unknown option " + std::string{name} + suggestion(name, known));
-}
-
-}  // namespace
 
 const OptionSpec* option_named(const Command& command, std::string_view name) {
   name = own_spelling(name);
@@ -68,7 +56,14 @@ void Arguments::take_option(const Command& command, std::span<const std::string>
     return;
   }
   const OptionSpec* option = option_named(command, name);
-  if (option == nullptr) refuse_unknown(command, name);
+  if (option == nullptr) {
+    for (const auto& [foreign, why] : command.foreign) {
+      if (own_spelling(name) == foreign) throw UsageError(fmt::format("{}: {}", name, why));
+    }
+    std::vector<std::string_view> known{"--help"};
+    for (const OptionSpec& each : command.options) known.push_back(each.name);
+    throw UsageError("unknown option " + name + suggestion(name, known));
+  }
   if (has(option->name) && !option->may_repeat && !option->goes_on)
     throw UsageError(std::string{option->name} + ": given twice");
   if (option->value.empty() || option->value_optional) {

@@ -145,14 +145,6 @@ constexpr std::pair<std::string_view, std::string_view> command_groups[] = {
     {"Help", "help man completion"},
 };
 
-std::string_view group_of(const OptionSpec& option) {
-  if (!option.group.empty()) return option.group;
-  for (const auto& [title, names] : option_groups) {
-    if (is_among(option.name, names)) return title;
-  }
-  return own;
-}
-
 // What help has of all verbs beside their options: examples and what is used most, one table, since they share both.
 
 constexpr std::string_view example_lines = R"(warren example # the worlds that there are
@@ -321,21 +313,24 @@ std::string version_text(std::string_view commit) {
       commit, build_compiler(), build_instruction_sets());
 }
 
-std::vector<OptionGroup> grouped_options(const Command& command) {
-  std::vector<OptionGroup> groups{{own, {}}};
+Groups<OptionSpec> grouped_options(const Command& command) {
+  Groups<OptionSpec> groups{{own, {}}};
   for (const auto& [title, names] : option_groups) groups.push_back({title, {}});
   for (const OptionSpec& option : command.options) {
-    const std::string_view title = group_of(option);
-    std::find_if(groups.begin(), groups.end(), [&](const OptionGroup& group) {
-      return group.title == title;
-    })->options.push_back(&option);
+    std::string_view title = option.group.empty() ? own : option.group;
+    for (const auto& [of, names] : option_groups) {
+      if (option.group.empty() && is_among(option.name, names)) title = of;
+    }
+    std::find_if(groups.begin(), groups.end(), [&](const auto& group) {
+      return group.first == title;
+    })->second.push_back(&option);
   }
-  std::erase_if(groups, [](const OptionGroup& group) { return group.options.empty(); });
+  std::erase_if(groups, [](const auto& group) { return group.second.empty(); });
   return groups;
 }
 
-std::vector<std::pair<std::string_view, std::vector<const Command*>>> grouped_commands() {
-  std::vector<std::pair<std::string_view, std::vector<const Command*>>> groups;
+Groups<Command> grouped_commands() {
+  Groups<Command> groups;
   for (const auto& [title, names] : command_groups) {
     groups.push_back({title, {}});
     for (const Command& command : command_table()) {

@@ -38,16 +38,15 @@ std::string_view meaning_of(std::string_view operand);
 // The headings under which help and manual pages list options: what is asked, how it is solved, what is written, how
 // the program runs. One table by name, since verbs share options.
 
-struct OptionGroup {
-  std::string_view title;  ///< "Question"
-  std::vector<const OptionSpec*> options;
-};
+/// A title each, such as "Question", and what stands below it.
+template <class T>
+using Groups = std::vector<std::pair<std::string_view, std::vector<const T*>>>;
 
 /// The verb's options in groups, none empty: its own first, the others in the order of the table.
-std::vector<OptionGroup> grouped_options(const Command& command);
+Groups<OptionSpec> grouped_options(const Command& command);
 
 /// The headings of the verbs themselves, in the order of command_table().
-std::vector<std::pair<std::string_view, std::vector<const Command*>>> grouped_commands();
+Groups<Command> grouped_commands();
 
 // Which build this is: what `warren --version` says beyond the version.
 

@@ -175,13 +175,6 @@ struct OptionReader {
   }
 };
 
-StarRule star_rule(const Arguments& arguments) {
-  const bool neighbours = arguments.value("--neighbours") == "star";
-  const bool radius = arguments.value("--radius") == "star";
-  if (neighbours && radius) throw UsageError("--radius: one rule of PRM* joins milestones, by neighbours or by radius");
-  return neighbours ? StarRule::neighbours : radius ? StarRule::radius : StarRule::none;
-}
-
 }  // namespace
 
 std::span<const OptionSpec> roadmap_option_specs() { return std::span(planner_specs).first(roadmap_spec_count); }
@@ -196,7 +189,10 @@ SolveOptions solve_words(const Arguments& arguments) {
   SolveOptions options;
   options.planner = given_choice<PlannerKind>(arguments, "--planner");
   options.seed = seed_word(arguments);
-  options.roadmap.star = star_rule(arguments);
+  const bool neighbours = arguments.value("--neighbours") == "star";
+  const bool radius = arguments.value("--radius") == "star";
+  if (neighbours && radius) throw UsageError("--radius: one rule of PRM* joins milestones, by neighbours or by radius");
+  options.roadmap.star = neighbours ? StarRule::neighbours : radius ? StarRule::radius : StarRule::none;
   visit_options(OptionReader{arguments, options.planner}, options);
   return options;
 }

@@ -19,18 +19,6 @@ std::string small_letters(std::string_view word) {
 constexpr std::pair<std::string_view, std::string_view> spellings[] = {
     {"--svg", "--picture"}, {"--optimize", "--optimise"}, {"--neighbors", "--neighbours"}, {"--colour", "--color"}};
 
-/// "| NAMES | HERE. |" a row, below the head.
-std::vector<OtherName> rows_of(std::string_view page) {
-  std::vector<OtherName> rows;
-  for (const std::string_view row : split(page, "\n")) {
-    const std::size_t bar = row.find(" | ");
-    if (row.starts_with("| "))
-      rows.push_back({row.substr(2, bar - 2), row.substr(bar + 3, row.rfind(". |") - bar - 3)});
-  }
-  rows.erase(rows.begin());
-  return rows;
-}
-
 /// Without what differs from one writer to the next.
 std::string letters_of(std::string_view word) {
   std::string letters;
@@ -76,7 +64,16 @@ std::string plain(std::string_view text) {
 }  // namespace
 
 const std::vector<OtherName>& other_names() {
-  static const std::vector<OtherName> rows = rows_of(other_names_page().front().bytes);
+  static const std::vector<OtherName> rows = [] {  // "| NAMES | HERE. |" each, below the head
+    std::vector<OtherName> all;
+    for (const std::string_view row : split(other_names_page().front().bytes, "\n")) {
+      const std::size_t bar = row.find(" | ");
+      if (!row.starts_with("| ")) continue;
+      all.push_back({row.substr(2, bar - 2), row.substr(bar + 3, row.rfind(". |") - bar - 3)});
+    }
+    all.erase(all.begin());
+    return all;
+  }();
   return rows;
 }
 

@@ -13,7 +13,6 @@
 #include "core/run/execution.hpp"
 #include "verify/exact/exact_segments.hpp"
 #include "verify/judges/leg_reports.hpp"
-#include "verify/near/obstacle_sides.hpp"
 #include "verify/near/sides_near_legs.hpp"
 #include "verify/near/straight_runs.hpp"
 

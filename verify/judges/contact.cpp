@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "verify/judges/contact.hpp"
-
-#include <algorithm>
+// May a path that touches obstacles be moved off them by an arbitrarily small amount? That is what "contact allowed"
+// means: running along a wall, touching its end and sliding along a polygon are free; changing the side of a wall,
+// passing a corner where walls meet, or an inside, is not.
+//
+// The path is walked from contact point to contact point. Around each the obstacles' directions cut the plane into
+// sectors, in exact order; the path may come in by one and must leave in the same one. A stretch that runs along a wall
+// lies on its left or its right side: both possibilities are carried on until a contact point rules them out.
 #include <cmath>
 
 #include "core/base/whole.hpp"
-#include "verify/exact/exact_segments.hpp"
+#include "verify/judges/leg_reports.hpp"
 
 namespace warren {
 namespace {

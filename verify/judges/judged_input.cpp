@@ -119,17 +119,4 @@ void check_outline(std::span<const Vec2> outline) {
   }
 }
 
-void check_poses(std::span<const Se2> path) {
-  if (path.empty()) throw InputError("path", "has no poses");
-  for (std::size_t i = 0; i < path.size(); ++i) {
-    const Se2& p = path[i];
-    const bool fits = std::abs(p.x) <= largest_coordinate && std::abs(p.y) <= largest_coordinate;
-    if (!fits) throw InputError(fmt::format("path: pose {}", i), "must have coordinates of at most 1e60");
-    if (!(std::abs(p.theta) <= largest_heading)) {  // what lies between two headings is rounded with their size
-      throw InputError(fmt::format("path: pose {}", i), "must have a heading of at most 1000 rad",
-                       fmt::format("{}", p.theta));
-    }
-  }
-}
-
 }  // namespace warren

@@ -6,7 +6,6 @@
 #include <span>
 #include <string_view>
 
-#include "core/plane/se2.hpp"
 #include "core/run/execution.hpp"
 #include "scenes/scene/scene.hpp"
 
@@ -25,8 +24,5 @@ void check_not_negative(std::string_view name, double value);
 
 /// Throws InputError unless a body has no corner (a disc) or at least three.
 void check_outline(std::span<const Vec2> outline);
-
-/// Throws InputError unless there is a pose, and each has coordinates and a heading within the limits.
-void check_poses(std::span<const Se2> path);
 
 }  // namespace warren

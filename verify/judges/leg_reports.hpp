@@ -16,10 +16,10 @@
 #include "core/run/execution.hpp"
 #include "parallel/chunks.hpp"
 #include "verify/exact/exact_segments.hpp"
-#include "verify/judges/contact.hpp"
 #include "verify/judges/verification.hpp"
 #include "verify/judges/verify_point.hpp"
 #include "verify/near/leg_boxes.hpp"
+#include "verify/near/obstacle_index.hpp"
 
 namespace warren {
 
@@ -58,6 +58,13 @@ Verification verdict_on(const LegReport& legs, const std::optional<Violation>& s
 // violation, the contacts. Pairs that are too far apart to matter are left out by their boxes; the others go to
 // verify/exact/exact_segments. Parts of the obstacles may be compared by different threads, each with a Comparison of
 // its own, and their tallies joined in any order.
+
+/// Leg and obstacle share a point.
+struct LegContact {
+  std::size_t leg;
+  std::size_t obstacle;
+  friend auto operator<=>(const LegContact&, const LegContact&) = default;
+};
 
 /// Later than every violation.
 inline constexpr LegContact no_violation{std::numeric_limits<std::size_t>::max(), 0};
@@ -134,5 +141,22 @@ Tally tally_chunks(std::size_t count, std::size_t grain, const VerifyOptions& op
   for (const Tally& part : parts_of_chunks(count, grain, execution, tally_of)) all.join(part);
   return all;
 }
+
+/// The tally of all walls and of the sides of polygons and bounds; its box is that of walls and polygons. The same for
+/// any number of threads.
+Tally compare_obstacles(const Scene& scene, const Obstacles& obstacles, const LegBoxes& legs,
+                        const VerifyOptions& options, const Execution& execution);
+
+/// The tally of all walls and sides; its box is that of walls and polygons. The same for any number of threads.
+Tally compare_indexed(const ObstacleIndex& index, const LegBoxes& legs, const VerifyOptions& options,
+                      const Execution& execution);
+
+/// The first leg that can't be walked, with the lowest obstacle of the point where it fails. contacts: sorted, all
+/// contacts of the legs before `leg_end`; none of these legs crosses an obstacle inside both. frame: the reference
+/// point stays in it, and does not get between it and walls that lie on its sides (a maze's outline).
+/// O(contacts log contacts).
+std::optional<LegContact> first_forbidden_contact(std::span<const Vec2> path, std::size_t leg_end, const Box& frame,
+                                                  const Obstacles& obstacles, std::span<const LegContact> contacts,
+                                                  const Execution& execution);
 
 }  // namespace warren

@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "verify/judges/verify_body_price.hpp"
-
+// What the path of a body that turns costs beside its length, recomputed: of polygons that turn as they go straight and
+// of cars, whose legs are arcs. Nothing of worlds/ or planners/ is used.
+//
+// Nearness has no closed form here, but it has bounds. No point of the body goes farther on a piece of a leg than the
+// piece is long and its turn times the body's extent; by so much at most the body's distance changes. So the distance
+// in the piece's middle bounds the integral from both sides, in closed form. A piece is halved until both are as near
+// as a thousandth of what it costs; half of what is left is the error. The distance is the least between corners of
+// the one and sides of the other, since a body that is free crosses nothing; from piece to half only those pairs are
+// kept that may be the least there. Areas are priced where the reference point is (verify/judges/judged_factors.hpp).
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,7 +17,7 @@
 #include "core/base/trigonometry.hpp"
 #include "core/base/whole.hpp"
 #include "verify/judges/judged_factors.hpp"
-#include "verify/near/obstacle_sides.hpp"
+#include "verify/judges/verify_price.hpp"
 #include "verify/near/sides_near_legs.hpp"
 #include "verify/near/straight_runs.hpp"
 

@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <new>
 #include <numbers>
 #include <queue>
 #include <tuple>
@@ -412,13 +411,9 @@ JudgedBound verify_bound(const Scene& scene, const BoundQuestion& asked, const C
   const bool is_place = asked.goal.empty() || (is_jointed(asked.robot) && asked.goal.size() != asked.start.size());
   const double plain = is_place ? 0.0 : free_distance(asked.robot, asked.start, asked.goal, claim.cost.has_value());
   if (bound <= plain * (1.0 + bound_rounding)) return {BoundVerdict::checked, {}};
-  try {
-    return is_place ? JudgedBound{} : judge_by_search(scene, asked, bound, execution);
-  } catch (const Stopped&) {
-    return {};
-  } catch (const std::bad_alloc&) {
-    return {};
-  }
+  JudgedBound judged;
+  if (!is_place) stopped_by([&] { judged = judge_by_search(scene, asked, bound, execution); });
+  return judged;
 }
 
 JudgedBound verify_potential(const OccupancyMap& map, const PotentialClaim& claim, const CellPotential& proof,

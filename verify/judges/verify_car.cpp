@@ -1,6 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "verify/judges/verify_car.hpp"
-
+// Is this path of a car drivable, and free? Independent of everything that found it: no steering curve is computed
+// here, nothing from spatial/ is used. The path is a list of poses; between two of them the car keeps its steering
+// wheel still, so two poses say all about a leg: its chord lies along the heading halfway, and length and turn give the
+// radius, forwards or backwards. A leg whose poses contradict that, that turns tighter than the turning radius, or that
+// goes backwards where the car can't, is refused.
+//
+// The whole body is judged (verify/judges/body_on_leg.hpp): at each pose neither lies in an obstacle nor an obstacle in
+// it, and nothing lies across it. On a leg the body turns about a point (or goes straight), so its corners follow arcs,
+// and in its eyes the corners of the obstacles do: from there on the least distance is a minimum over arcs and sides in
+// closed form (verify/exact/exact_segments.hpp). No halving, no sampling. O(obstacles) once, but for maps, then
+// O(legs * sides near them * corners).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +19,7 @@
 #include "core/base/error.hpp"
 #include "verify/judges/body_on_leg.hpp"
 #include "verify/judges/judged_input.hpp"
+#include "verify/judges/verify_turning.hpp"
 #include "verify/near/straight_runs.hpp"
 
 namespace warren {
@@ -122,10 +132,7 @@ void check_car(const VerifiedCar& car) {
 Verification verify_car(const Scene& scene, const VerifiedCar& car, std::span<const Se2> path,
                         const PoseVerifyOptions& options, const Execution& execution, const ObstacleIndex* index) {
   check_car(car);
-  check_poses(path);
-  check_not_negative("clearance", options.clearance);
-  check_not_negative("tolerance", options.tolerance);
-  check_plane_scene(scene, execution);
+  check_judged_poses(scene, path, options, execution);
   CarVerifier verifier(scene, car, path, options, execution, index);
   LegReport legs = verifier.check();
   legs.least = std::max(legs.least, 0.0) - car.radius;

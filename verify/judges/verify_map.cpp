@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Is this path free on a map? Each leg is compared with the closed square of every blocked cell near it, in cells; what
+// lies outside of the map is blocked. Independent of what found it: nothing from spatial/ or planners/, orientations
+// and distances by verify/exact/exact_segments, borders as the cells say and not as walls.
+//
 // All lengths are in cells until they are reported. A window of cells around a leg grows until it holds a blocked one
 // or reaches as far as the least distance met so far, so a path far from everything is not compared with everything.
-#include "verify/judges/verify_map.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>

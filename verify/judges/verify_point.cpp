@@ -10,14 +10,8 @@
 #include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
 #include "verify/exact/exact_segments.hpp"
-#include "verify/judges/contact.hpp"
 #include "verify/judges/judged_input.hpp"
 #include "verify/judges/leg_reports.hpp"
-#include "verify/judges/legs_against_obstacles.hpp"
-#include "verify/judges/verify_map.hpp"
-#include "verify/near/leg_boxes.hpp"
-#include "verify/near/obstacle_index.hpp"
-#include "verify/near/obstacle_sides.hpp"
 
 namespace warren {
 namespace {

@@ -15,6 +15,7 @@
 #include "core/base/enum_names.hpp"
 #include "core/base/types.hpp"
 #include "core/run/execution.hpp"
+#include "scenes/scene/occupancy_map.hpp"
 #include "scenes/scene/scene.hpp"
 #include "verify/judges/verification.hpp"
 
@@ -37,7 +38,7 @@ struct VerifyOptions {
   double reach() const { return clearance + radius; }
 };
 
-/// Point or disc among the scene's walls, polygons and bounds; on a map by its cells (verify/judges/verify_map), where
+/// Point or disc among the scene's walls, polygons and bounds; on a map by its cells (verify_on_map()), where
 /// contact can't be allowed. Throws InputError for scenes that hold anything else, or nothing
 /// (verify/judges/judged_input). The path has at least one point, all finite, fewer than 500 million (InputError
 /// otherwise); a single point is a leg of length zero. The points must lie in the box of walls and polygons, or in the
@@ -45,6 +46,13 @@ struct VerifyOptions {
 /// takes what the path does, not the scene. Of a map there is none: its cells are looked up anyway.
 Verification verify_path(const Scene& scene, std::span<const Vec2> path, const VerifyOptions& options,
                          const Execution& execution, const ObstacleIndex* index = nullptr);
+
+/// A point or disc; with a reach of 0 it touches no blocked square; contact can't be allowed. A leg costs the cells
+/// within its clearance, and those within the least distance met so far. Water is free to a path that begins on water
+/// and blocked to all others. At least one point, all finite (InputError otherwise). The same for any number of
+/// threads; throws Stopped.
+Verification verify_on_map(const OccupancyMap& map, std::span<const Vec2> path, const VerifyOptions& options,
+                           const Execution& execution);
 
 /// Throws InputError for paths and options that no judge of points and discs takes, as said above.
 void check_judged_path(std::span<const Vec2> path, const VerifyOptions& options, const Execution& execution);

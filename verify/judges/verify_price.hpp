@@ -7,6 +7,7 @@
 
 #include <span>
 
+#include "core/plane/se2.hpp"
 #include "core/run/execution.hpp"
 #include "scenes/scene/prices.hpp"
 #include "scenes/scene/scene.hpp"
@@ -18,5 +19,12 @@ namespace warren {
 /// where a price of nearness reaches nowhere, Stopped.
 PriceParts verify_price(const Scene& scene, std::span<const Vec2> path, const Prices& prices, double radius,
                         const Execution& execution);
+
+/// Clearance and areas of a turning polygon or a car, and `error`: the sum is off by no more. scene: as the prices
+/// close and open it (verify/judges/effective_scene), in which the path is free. Of turns on the spot nothing is paid:
+/// the integrals are over the way of the reference point. Throws InputError where a price of nearness reaches nowhere,
+/// Stopped.
+PriceParts verify_body_price(const Scene& scene, std::span<const Se2> path, const RobotSpec& robot,
+                             const Prices& prices, const Execution& execution);
 
 }  // namespace warren

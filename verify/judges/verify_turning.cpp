@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "verify/judges/verify_turning.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <vector>
 
 #include "core/base/error.hpp"
 #include "core/base/trigonometry.hpp"
@@ -85,6 +86,23 @@ class PathCheck {
 
 }  // namespace
 
+void check_judged_poses(const Scene& scene, std::span<const Se2> path, const PoseVerifyOptions& options,
+                        const Execution& execution) {
+  if (path.empty()) throw InputError("path", "has no poses");
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const Se2& p = path[i];
+    const bool fits = std::abs(p.x) <= largest_coordinate && std::abs(p.y) <= largest_coordinate;
+    if (!fits) throw InputError(fmt::format("path: pose {}", i), "must have coordinates of at most 1e60");
+    if (!(std::abs(p.theta) <= largest_heading)) {  // what lies between two headings is rounded with their size
+      throw InputError(fmt::format("path: pose {}", i), "must have a heading of at most 1000 rad",
+                       fmt::format("{}", p.theta));
+    }
+  }
+  check_not_negative("clearance", options.clearance);
+  check_not_negative("tolerance", options.tolerance);
+  check_plane_scene(scene, execution);
+}
+
 std::optional<Violation> wrong_start(std::span<const Se2> path, const PoseVerifyOptions& options) {
   if (!options.start || is_there(path.front(), *options.start, false, options.tolerance)) return std::nullopt;
   const Se2& wanted = *options.start;
@@ -106,10 +124,7 @@ Verification verify_se2(const Scene& scene, std::span<const Vec2> outline, std::
                         const PoseVerifyOptions& options, const Execution& execution, const ObstacleIndex* index) {
   if (outline.empty()) throw InputError("robot", "a polygon needs three corners or more");
   check_outline(outline);
-  check_poses(path);
-  check_not_negative("clearance", options.clearance);
-  check_not_negative("tolerance", options.tolerance);
-  check_plane_scene(scene, execution);
+  check_judged_poses(scene, path, options, execution);
   BodyVerifier body(scene, outline, options.clearance, 0.0, execution, index);
   LegReport legs = PathCheck(body, path, execution).check(std::max(body.least_reach(), 1e-9));  // it may have no extent
   legs.least = std::max(legs.least, 0.0);

@@ -12,6 +12,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "core/plane/se2.hpp"
 #include "core/run/execution.hpp"
@@ -41,6 +42,31 @@ struct PoseVerifyOptions {
 Verification verify_se2(const Scene& scene, std::span<const Vec2> outline, std::span<const Se2> path,
                         const PoseVerifyOptions& options, const Execution& execution,
                         const ObstacleIndex* index = nullptr);
+
+/// What drives.
+struct VerifiedCar {
+  double turning_radius = 1.0;     ///< > 0
+  bool reverses = false;           ///< may it back up?
+  bool turns_on_spot = false;      ///< may it turn as tightly as it likes? Then turning_radius is a scale of lengths
+  double radius = 0.0;             ///< of a disc around the reference point; >= 0
+  std::vector<Vec2> outline = {};  ///< a polygon instead; then radius is 0
+};
+
+/// The car among the scene's walls, polygons and bounds; on a map among its cells, whose borders are read from the
+/// bits. Throws InputError for scenes that hold anything else, or nothing (verify/judges/judged_input). Legs turn by
+/// half a turn at most; where a car that reverses could drive half a turn either way, both must be free. Poses may be
+/// off by some 1e-9 turning radii. The path has at least one pose, all finite (InputError otherwise); a single pose is
+/// a leg of length zero. min_clearance is around the body: a lower bound, sharp up to rounding; where the path is not
+/// free, the least met. The same for any number of threads, with an index of this scene and without; it is for scenes
+/// that are no maps.
+Verification verify_car(const Scene& scene, const VerifiedCar& car, std::span<const Se2> path,
+                        const PoseVerifyOptions& options, const Execution& execution,
+                        const ObstacleIndex* index = nullptr);
+
+/// Throws InputError for paths, options and scenes that no judge of bodies with a heading takes: unless there is a
+/// pose, and each has coordinates and a heading within the limits.
+void check_judged_poses(const Scene& scene, std::span<const Se2> path, const PoseVerifyOptions& options,
+                        const Execution& execution);
 
 /// What the ends of a path of poses say that begins or ends elsewhere; nothing where they are as asked for.
 std::optional<Violation> wrong_start(std::span<const Se2> path, const PoseVerifyOptions& options);

@@ -2,7 +2,6 @@
 #include "verify/near/obstacle_index.hpp"
 
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "core/base/error.hpp"

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "verify/near/obstacle_sides.hpp"
-
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "verify/exact/exact_segments.hpp"
+#include "verify/near/obstacle_index.hpp"
 
 namespace warren {
 namespace {

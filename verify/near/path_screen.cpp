@@ -183,7 +183,12 @@ PathScreen::PathScreen(const LegBoxes& legs, const Plan& plan, const Execution& 
   for_chunks(columns, stripe, execution, [&](Range r) {
     const bool is_last = r.last == columns;
     std::fill(&bits_[r.first * stride_], &bits_[0] + (is_last ? bytes : r.last * stride_), std::uint8_t{0});
-    mark(legs, {as_whole<std::int32_t>(r.first), as_whole<std::int32_t>(r.last)}, execution);
+    execution.check();
+    const Stripe marked{as_whole<std::int32_t>(r.first), as_whole<std::int32_t>(r.last)};
+    const double left = (first_column_ + marked.first - 2) * cell_;
+    const double right_end = (first_column_ + marked.last + 2) * cell_;
+    legs.for_each([&](const Box& around) { return around.max.x < left || around.min.x > right_end; },
+                  [&](std::size_t leg) { mark_leg(legs.leg(leg), marked); });
   });
 }
 
@@ -208,14 +213,6 @@ PathScreen::Place PathScreen::place(double x, double first_cell) const {
   const double u = x * per_cell_;
   const double whole = whole_below(u);
   return {bounded_whole<std::int32_t>(whole - first_cell), whole == u};
-}
-
-void PathScreen::mark(const LegBoxes& legs, const Stripe& stripe, const Execution& execution) {
-  execution.check();
-  const double left = (first_column_ + stripe.first - 2) * cell_;
-  const double right_end = (first_column_ + stripe.last + 2) * cell_;
-  legs.for_each([&](const Box& box) { return box.max.x < left || box.min.x > right_end; },
-                [&](std::size_t leg) { mark_leg(legs.leg(leg), stripe); });
 }
 
 void PathScreen::mark_leg(const Segment& leg, const Stripe& stripe) {

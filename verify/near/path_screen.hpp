@@ -105,7 +105,6 @@ class PathScreen {
 
   void choose_cell(const LegBoxes& legs, const Plan& plan);
   Place place(double x, double first_cell) const;
-  void mark(const LegBoxes& legs, const Stripe& stripe, const Execution& execution);
   void mark_leg(const Segment& leg, const Stripe& stripe);
   void mark_box(const Box& box, const Stripe& stripe);
   void set(std::int32_t column, std::int32_t row, unsigned which, const Stripe& stripe);

@@ -16,7 +16,6 @@
 #include "core/run/execution.hpp"
 #include "scenes/scene/scene.hpp"
 #include "verify/near/obstacle_index.hpp"
-#include "verify/near/obstacle_sides.hpp"
 
 namespace warren {
 

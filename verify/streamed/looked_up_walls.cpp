@@ -164,8 +164,6 @@ class JudgedMazeFile::Reader : public CellWallReader {
     const std::uint64_t stride = row_bytes(file_.cols());
     if (file_.forget_ && first_ < last_) file_.forget_(first_cell + first_ * stride, first_cell + last_ * stride);
   }
-  Reader(const Reader&) = delete;
-  Reader& operator=(const Reader&) = delete;
 
   void read(std::size_t number, CellTile& tile) override {
     file_.place(number, tile);

@@ -136,20 +136,18 @@ class LegsAmongCells {
     const std::ptrdiff_t last_col = local(near.high_col, tile.first_col, tile.width);
     for (std::ptrdiff_t row = local(near.low_row, tile.first_row, tile.height) - 1; row <= last_row; ++row) {
       for (std::ptrdiff_t col = local(near.low_col, tile.first_col, tile.width) - 1; col <= last_col; ++col) {
-        if (row >= -1 && col >= -1) compare_at(tile, col, row, leg, comparison);
+        if (row < -1 || col < -1) continue;
+        const unsigned walls = tile.walls[tile.index(col, row)];
+        const auto with = [&](bool is_upper) {
+          const std::size_t wall =
+              number_of(as_whole<std::uint32_t>(std::ptrdiff_t{tile.first_col} + col + 1),
+                        as_whole<std::uint32_t>(std::ptrdiff_t{tile.first_row} + row + 1), is_upper);
+          comparison.with_leg(leg, {wall_of(wall), wall});
+        };
+        if ((walls & CellTile::right_wall) != 0 && row >= 0) with(false);
+        if ((walls & CellTile::upper_wall) != 0 && col >= 0) with(true);
       }
     }
-  }
-  static void compare_at(const CellTile& tile, std::ptrdiff_t col, std::ptrdiff_t row, const BoxedSegment& leg,
-                         Comparison& comparison) {
-    const unsigned walls = tile.walls[tile.index(col, row)];
-    const auto place = [&](bool is_upper) {
-      return number_of(as_whole<std::uint32_t>(std::ptrdiff_t{tile.first_col} + col + 1),
-                       as_whole<std::uint32_t>(std::ptrdiff_t{tile.first_row} + row + 1), is_upper);
-    };
-    const auto with = [&](std::size_t wall) { comparison.with_leg(leg, {wall_of(wall), wall}); };
-    if ((walls & CellTile::right_wall) != 0 && row >= 0) with(place(false));
-    if ((walls & CellTile::upper_wall) != 0 && col >= 0) with(place(true));
   }
 
   const CellWallSource& cells_;
@@ -169,30 +167,6 @@ Violation described(const LegContact& found, const LegBoxes& legs, const Box& bo
   const Segment wall = wall_of(found.obstacle);
   return {found.leg, exact::distance(legs.leg(found.leg), wall),
           fmt::format("wall: {} {} {} {}", wall.a.x, wall.a.y, wall.b.x, wall.b.y)};
-}
-
-Tally within(const CellWallSource& cells, const LegBoxes& legs, const VerifyOptions& options, double reach,
-             std::span<const Vec2> path, JudgesElsewhere* others, const Execution& execution) {
-  if (others == nullptr)
-    return LegsAmongCells(cells, {0, cells.tile_count()}, legs, options, reach, execution).compare();
-  others->begin(path, reach);
-  Tally tally = LegsAmongCells(cells, others->own_tiles(), legs, options, reach, execution).compare();
-  for (const NearestWalls& found : others->take()) {
-    tally.least = std::min(tally.least, found.least);
-    tally.violation = std::min(tally.violation, LegContact{found.leg, found.wall});
-  }
-  return tally;
-}
-
-/// Looks farther where nothing came as near as was looked, or as something else did: the least distance, if it is below
-/// `least`, is then the true one.
-Tally compared(const CellWallSource& cells, const LegBoxes& legs, const VerifyOptions& options, double least,
-               std::span<const Vec2> path, JudgesElsewhere* others, const Execution& execution) {
-  const double farthest = static_cast<double>(cells.rows()) + cells.cols();
-  for (double reach = std::max(1.0, std::ceil(options.reach() + 1e-6));; reach *= 2) {
-    Tally tally = within(cells, legs, options, reach, path, others, execution);
-    if (std::min(tally.least, least) <= reach || reach > farthest) return tally;
-  }
 }
 
 constexpr double half = 0.5;  // from the middle of a cell to its walls
@@ -280,13 +254,28 @@ JudgeAmongCells::JudgeAmongCells(const CellWallSource& cells, const VerifyOption
     throw InputError("contact", "is not judged where walls are made tile by tile");
 }
 
+/// Looks farther where nothing came as near as was looked, or as something else did: the least distance, if it is below
+/// that of the pieces before, is then the true one.
+Tally JudgeAmongCells::compared(const LegBoxes& legs) const {
+  const double farthest = static_cast<double>(cells_.rows()) + cells_.cols();
+  for (double reach = std::max(1.0, std::ceil(options_.reach() + 1e-6));; reach *= 2) {
+    if (others_ != nullptr) others_->begin(legs.path(), reach);
+    const Range tiles = others_ != nullptr ? others_->own_tiles() : Range{0, cells_.tile_count()};
+    Tally tally = LegsAmongCells(cells_, tiles, legs, options_, reach, execution_).compare();
+    for (const NearestWalls& found : others_ != nullptr ? others_->take() : std::vector<NearestWalls>{}) {
+      tally.least = std::min(tally.least, found.least);
+      tally.violation = std::min(tally.violation, LegContact{found.leg, found.wall});
+    }
+    if (std::min(tally.least, report_.least) <= reach || reach > farthest) return tally;
+  }
+}
+
 void JudgeAmongCells::add(std::span<const Vec2> piece) {
   check_judged_path(piece, options_, execution_);
   assert(points_ == 0 || piece.front() == ends_[1]);
   const Vec2 twice[] = {piece.front(), piece.front()};
-  const std::span<const Vec2> path = piece.size() > 1 ? piece : std::span<const Vec2>(twice);
-  const LegBoxes legs(path, execution_);
-  Tally tally = compared(cells_, legs, options_, report_.least, path, others_, execution_);
+  const LegBoxes legs(piece.size() > 1 ? piece : std::span<const Vec2>(twice), execution_);
+  Tally tally = compared(legs);
   check_box(cells_.box(), legs, tally);
   LegReport report{.least = tally.least};
   if (tally.violation != no_violation) {

@@ -69,6 +69,8 @@ class JudgeAmongCells {
   Verification verdict() const;
 
  private:
+  Tally compared(const LegBoxes& legs) const;
+
   const CellWallSource& cells_;
   const VerifyOptions options_;
   const Execution execution_;

@@ -2,13 +2,10 @@
 #include "worlds/arms/arm_certificate.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
-#include <cstddef>
 #include <limits>
 #include <numbers>
-#include <vector>
 
 #include "core/base/whole.hpp"
 #include "worlds/arms/arm_lanes.hpp"
@@ -673,12 +670,8 @@ MotionVerdict judge_arm_motion(const ArmSetup& setup, std::span<const double> q,
 
 namespace warren {
 
-ArmCertificate::ArmCertificate(const ArmModel& model, std::span<const Solid> obstacles, double clearance,
-                               double resolution, const Execution& execution)
-    : setup_(model, obstacles, clearance, resolution, execution) {}
-
 MotionVerdict ArmCertificate::motion(std::span<const double> q, std::span<const double> way) const {
-  return detail::judge_arm_motion(setup_, q, way, detail::best_instruction_set());
+  return detail::judge_arm_motion(*this, q, way, detail::best_instruction_set());
 }
 
 bool ArmCertificate::is_free(std::span<const double> q) const {

@@ -33,25 +33,122 @@
 // |v| h instead of |n v| h (2 to 10 times the cost), one A for all links (2 times), one obstacle after the other.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <span>
+#include <vector>
 
 #include "core/run/execution.hpp"
 #include "scenes/scene/arm_model.hpp"
 #include "spatial/points/disc_points.hpp"
-#include "worlds/arms/arm_tables.hpp"
+#include "worlds/arms/convex_motion.hpp"
 #include "worlds/poses/certified_motion.hpp"
 
 namespace warren {
+namespace detail {
+// What the certificate knows of an arm and of what stands around it, in floats and in doubles. Frames are turned so
+// that every joint's axis is its frame's z. Slot 0 is the base, which does not move; slot i + 1 is joint i's. A link
+// has balls: those that it consists of, or some that cover its solids.
 
-/// Immutable after construction; any number of threads may ask.
-class ArmCertificate {
- public:
+/// What an obstacle's core is: all that is within `inflate` of it is blocked.
+enum class ArmObstacleShape : std::uint8_t { point, segment, upright_box, box, cylinder };
+
+template <class T>
+struct ArmTables {
+  struct Frame {
+    std::array<T, 9> turn;  // columns, in the parent's frame
+    std::array<T, 3> at;
+  };
+  struct Ball {
+    T x, y, z;
+    T outer;  // what the ball stands for lies within this of the centre,
+    T inner;  // and holds all points within this; not above 0: none
+  };
+  struct Obstacle {
+    T x, y, z;
+    std::array<T, 9> axes;  // columns; of segments and cylinders the last one is the axis
+    std::array<T, 3> half;  // of a box; of a cylinder x is the radius, z half the length; of a segment z
+    T inflate;              // with the clearance in it
+  };
+  std::vector<Frame> frames;  // by slot
+  std::vector<Ball> hulls;    // by link
+  std::vector<Ball> balls;
+  std::vector<Obstacle> obstacles;
+  /// least x, y, z and greatest of the obstacles, inflated: six rows, each of obstacles padded to full lanes; nothing
+  /// meets what pads
+  std::array<std::vector<T>, 6> bounds;
+  std::vector<T> reach;       // slot by slot: of each link, padded: how far from the slot's axis its centres get
+  std::vector<T> pair_reach;  // the same of pairs: that of the one whose slot is moved; 0: both or none
+  T clearance;
+  T slack;      // for rounding: of any distance
+  T way_slack;  // the same, a unit of speed and of time
+};
+
+/// How a slot's joint follows the state.
+struct ArmDrive {
+  std::size_t parent = 0;  // slot
+  bool slides = false;
+  std::size_t variable = 0;
+  double multiplier = 0.0;
+  double offset = 0.0;
+  double low = 0.0;  // values, of a joint that slides
+  double high = 0.0;
+  double most_way = 0.0;    // of the value
+  double most_value = 0.0;  // its size, of a joint that turns
+  double most_reach = 0.0;  // largest of all links
+};
+
+struct ArmSetup {
   /// What the arm is among: obstacles in the base's frame, each keeping `clearance` >= 0 from every link, as the
   /// model's pairs of links do from each other; below `resolution` (> 0, metres that a point of the arm may go in a
   /// piece) a motion that is neither proved free nor blocked is refused. Copies what it needs. Throws Stopped.
-  ArmCertificate(const ArmModel& model, std::span<const Solid> obstacles, double clearance, double resolution,
-                 const Execution& execution = {});
+  ArmSetup(const ArmModel& model, std::span<const Solid> obstacles, double clearance, double resolution,
+           const Execution& execution = {});
 
+  struct Link {
+    std::uint32_t slot;
+    std::uint32_t first_ball;
+    std::uint32_t end_ball;
+  };
+  struct Pair {
+    std::uint32_t a;
+    std::uint32_t b;
+    std::uint32_t common;  // slot
+  };
+  std::vector<ArmDrive> drives;  // by slot; the first one is no joint's
+  std::vector<Link> links;       // those that move first
+  std::size_t moving = 0;        // so many
+  std::vector<Pair> pairs;
+  std::vector<std::uint32_t> solid_of_ball;
+  std::vector<std::uint8_t> is_whole_ball;  // is the ball all of its solid?
+  std::vector<ConvexBody> solids;
+  std::vector<ArmObstacleShape> shapes;         // by obstacle
+  std::vector<std::uint8_t> is_whole_obstacle;  // is the shape all of it?
+  std::vector<ConvexBody> bodies;               // by obstacle
+  std::size_t obstacle_lanes = 0;               // obstacles, padded to eights
+  std::size_t link_lanes = 0;
+  std::size_t pair_lanes = 0;
+  double clearance;
+  double resolution;
+  bool always_touches = false;  // what never moves is not proved free
+  bool always_meets = false;    // and does touch
+  bool floats_hold = true;      // is all so small that products of squares are numbers, too?
+  ArmTables<float> floats;
+  ArmTables<double> doubles;
+};
+
+/// What ArmCertificate::motion() says, by the instruction set; of tests, with a bound of the acceleration that is so
+/// much of the true one.
+MotionVerdict judge_arm_motion(const ArmSetup& setup, std::span<const double> q, std::span<const double> way,
+                               InstructionSet set, double bend_factor = 1.0);
+
+}  // namespace detail
+
+/// Immutable after construction; any number of threads may ask.
+class ArmCertificate : private detail::ArmSetup {
+ public:
+  using detail::ArmSetup::ArmSetup;
   /// Every variable goes evenly from q to q + way, both ends included. A joint that slides out of its limits, and a way
   /// longer than its range (a continuous one's: more than a turn), are refused, as are angles beyond 1000 that are out
   /// of limits; other limits are the caller's business. Bounded: what takes some 20,000 looks is refused.
@@ -59,17 +156,6 @@ class ArmCertificate {
   MotionVerdict motion(std::span<const double> q, std::span<const double> way) const;
   /// A motion of no length: touching is not free.
   bool is_free(std::span<const double> q) const;
-
- private:
-  detail::ArmSetup setup_;
 };
 
-namespace detail {
-
-/// What motion() says, by the instruction set; of tests, with a bound of the acceleration that is so much of the true
-/// one.
-MotionVerdict judge_arm_motion(const ArmSetup& setup, std::span<const double> q, std::span<const double> way,
-                               InstructionSet set, double bend_factor = 1.0);
-
-}  // namespace detail
 }  // namespace warren

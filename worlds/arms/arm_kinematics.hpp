@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/run/execution.hpp"
 #include "scenes/scene/arm_model.hpp"
 #include "worlds/arms/convex_motion.hpp"
 
@@ -57,5 +58,18 @@ class ArmKinematics {
   std::array<double, most_joints> tool_reach_{};
   double whole_reach_ = 0.0;
 };
+
+/// What the tool shall be at, in the base's frame.
+struct ToolGoal {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  bool place_only = false;  ///< the tool may be turned anyhow
+};
+
+/// States within the limits that bring the tool there, to 1e-9 of the world's unit and 1e-9 rad; any two differ by more
+/// than 1e-6 in some variable, nearest to the seed first (each variable by its own unit, the wrap counts); variables
+/// that do not move the tool stay as the seed has them. At most `enough`, >= 1; after 100 starts, or 10 for each that
+/// is asked for, none more. Deterministic. Throws Stopped.
+std::vector<JointState> postures_of_tool(const ArmKinematics& arm, const ToolGoal& goal, const JointState& seed,
+                                         std::size_t enough, const Execution& execution = {});
 
 }  // namespace warren

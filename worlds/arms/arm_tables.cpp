@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/arms/arm_tables.hpp"
+#include "worlds/arms/arm_certificate.hpp"
 
 #include <algorithm>
 #include <cmath>

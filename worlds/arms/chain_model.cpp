@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The arm of a Denavit-Hartenberg table as a model: its joints, a capsule between any two consecutive points of the
+// chain that are apart, the tool. And of any model the pairs of links that are no use to keep apart: nothing moves one
+// against the other, or they touch whatever the arm does, as far as 1,000 states tell (MoveIt's assistant finds its
+// pairs that way, too).
+//
 // In the notation of serial_chain.hpp: the model's frame i turns with joint i and has its axis for z, at the point
 // where the sequence Rz ... begins; frame i of the table stands at its `tail`.
-#include "worlds/arms/chain_model.hpp"
-
 #include <algorithm>
 #include <string>
 #include <vector>

@@ -2,7 +2,6 @@
 #include "worlds/arms/convex_motion.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 

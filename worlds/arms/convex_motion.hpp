@@ -43,10 +43,6 @@ class ConvexBody {
   /// A point of the core that lies farthest in a direction of any length, up to rounding (a few 1e-16 of its size).
   /// `near` says where a hull is looked at first, any number, and becomes what is best next for a direction much alike.
   Vec3 core_support(const Vec3& direction, std::size_t& near) const;
-  Vec3 core_support(const Vec3& direction) const {
-    std::size_t near = 0;
-    return core_support(direction, near);
-  }
   /// The body is what is within this of the core; >= 0.
   double margin() const { return margin_; }
   /// Of a ball that holds the body.

@@ -12,6 +12,7 @@
 #include <array>
 #include <cstddef>
 
+#include "core/run/execution.hpp"
 #include "scenes/scene/scene.hpp"
 
 namespace warren {
@@ -52,5 +53,16 @@ class SerialChain {
   std::array<Step, most_joints> steps_;
   double whole_reach_ = 0.0;
 };
+
+/// The arm of a table. Six variables always: those that the table lacks are 0 and have no joint. Capsules have the
+/// radius. self_collision: no two may touch, but neighbours and those that what is between them keeps nearer than their
+/// radii and the clearance. Throws InputError as SerialChain, for an arm without any link, and for lengths that are not
+/// from 0 to 1e60.
+ArmModel model_of(const DhTable& table, double radius, bool self_collision, double clearance = 0.0);
+
+/// Takes from the model's pairs those that are no use to keep apart: nothing moves one link against the other, or they
+/// touch in each of 1,000 states, which `assumed` tells. A pair is a suspect until the first state where it is apart:
+/// some ms in all. Throws InputError as ArmKinematics, Stopped.
+void leave_out_touching(ArmModel& model, const Execution& execution = {});
 
 }  // namespace warren

@@ -47,8 +47,12 @@ std::pair<double, double> range_between(const Segment& leg, double low, double h
 
 }  // namespace
 
+GridWorld::GridWorld(const OccupancyMap& map, double radius) : map_(map), reach_(planning_reach(map, radius)) {
+  box_ = {{0.0, 0.0}, {map.cell * map.width(), map.cell * map.height()}};
+}
+
 GridWorld::GridWorld(const OccupancyMap& map, double radius, const Execution& execution, MapMilestones milestones)
-    : map_(map), reach_(planning_reach(map, radius)) {
+    : GridWorld(map, radius) {
   const bool fits_every_cell = reach_ < 0.5;
   if (milestones == MapMilestones::cell_centres) {
     milestone_cells_ = fits_every_cell ? cell_milestones(map_.blocked, execution)
@@ -59,9 +63,6 @@ GridWorld::GridWorld(const OccupancyMap& map, double radius, const Execution& ex
   field_.emplace(map_.blocked, CellDistance::squares, true, execution);
   if (milestones == MapMilestones::corridors) corridors_.emplace(map_, *field_, reach_, execution);
 }
-
-GridWorld::GridWorld(const OccupancyMap& map, double radius, const DistanceField& distances)
-    : map_(map), reach_(planning_reach(map, radius)), given_(&distances) {}
 
 bool GridWorld::lies_in_the_open(const Segment& leg) const {
   const DistanceField* field = distances();

@@ -8,12 +8,11 @@
 #include <array>
 #include <optional>
 
-#include "core/base/types.hpp"
-#include "core/base/world.hpp"
 #include "core/run/execution.hpp"
 #include "scenes/scene/occupancy_map.hpp"
 #include "spatial/maps/distance_field.hpp"
 #include "spatial/maps/free_cells.hpp"
+#include "worlds/plane/maze_world.hpp"
 #include "worlds/rasters/corridor_points.hpp"
 
 namespace warren {
@@ -22,11 +21,10 @@ namespace warren {
 /// motions will be asked, so that the distance transform would cost more than it saves.
 enum class MapMilestones : std::uint8_t { anywhere, corridors, cell_centres, none };
 
-/// Immutable after construction; one Query a thread. A motion costs the cells of the strip around it, 64 at a time.
-class GridWorld {
+/// Immutable after construction; one Query a thread. A motion costs the cells of the strip around it, 64 at a time. Its
+/// box is the map as if its origin were (0, 0) and it were not turned: what uniform samples are spread over.
+class GridWorld : public PointWorld {
  public:
-  static constexpr std::size_t dimension = 2;
-  using State = Vec2;
   struct Query {};
 
   /// radius: distance that states keep from blocked squares, world units, >= 0 and finite (InputError otherwise); 0:
@@ -35,7 +33,9 @@ class GridWorld {
   GridWorld(const OccupancyMap& map, double radius, const Execution& execution,
             MapMilestones milestones = MapMilestones::anywhere);
   /// The same, and refers to distances that are there: to the map's blocked squares and to its outside.
-  GridWorld(const OccupancyMap& map, double radius, const DistanceField& distances);
+  GridWorld(const OccupancyMap& map, double radius, const DistanceField& distances) : GridWorld(map, radius) {
+    given_ = &distances;
+  }
 
   Query make_query() const { return {}; }
   State at_unit(const std::array<double, 2>& u) const {
@@ -43,11 +43,6 @@ class GridWorld {
   }
   bool is_free(const State& a, Query& query) const { return is_free_motion(a, a, query); }
   bool is_free_motion(const State& a, const State& b, Query& query) const;
-  static double distance(const State& a, const State& b) { return warren::distance(a, b); }
-  std::array<double, 2> embed(const State& a) const { return {a.x, a.y}; }
-  State interpolate(const State& a, const State& b, double t) const {
-    return t <= 0.0 ? a : t >= 1.0 ? b : a + t * (b - a);
-  }
 
   /// The index-th sample from the middles of the corridors, a pure function; the uniform one where there are no
   /// corridors wide enough, or none were asked for.
@@ -60,15 +55,13 @@ class GridWorld {
   State cell_state(std::uint32_t x, std::uint32_t y) const { return cell_centre(map_, {x, y}); }
   double milestone_reach() const { return cell_milestone_reach * map_.cell; }
 
-  /// The map as if its origin were (0, 0) and it were not turned: what uniform samples are spread over.
-  Box box() const { return {{0.0, 0.0}, {map_.cell * map_.width(), map_.cell * map_.height()}}; }
-  double sampled_area() const { return box().width() * box().height(); }
   /// Uniform samples that a first roadmap needs: 4.5 for each free square as wide as its corridor, at least 500.
   /// O(cells).
   double suggested_samples(const Execution& execution) const;
   const OccupancyMap& map() const { return map_; }
 
  private:
+  GridWorld(const OccupancyMap& map, double radius);
   bool row_is_free(const Segment& leg, std::int64_t row) const;
   /// Is all that is within half the leg of its middle free, by the middle's cell's distance from all squares?
   bool lies_in_the_open(const Segment& leg) const;

@@ -40,6 +40,19 @@ class PointWorld {
   Box box_;
 };
 
+class PolygonIndex;  // spatial/obstacles/polygon_index.hpp
+
+// How wide the free ways between walls are, by looking from the middles of some walls to either side; and how many
+// uniform samples ways of that width need. What `--samples auto` begins with: a guess that need not be right.
+
+/// 4.5 samples for each square as wide as what the clearance leaves of `width`.
+double samples_for_width(double width, double area, double clearance);
+
+/// The lower quartile of the free widths on both sides of some walls, but for sides inside of polygons (nullptr: there
+/// are none); the side of a square of the box's area where no other wall is seen. Throws Stopped: a look among crowded
+/// walls takes long.
+double typical_width(const WallIndex& index, const Box& box, const PolygonIndex* polygons, const Execution& execution);
+
 /// Immutable after construction; one Query a thread.
 class MazeWorld : public PointWorld {
  public:

@@ -6,7 +6,6 @@
 
 #include "core/base/error.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
-#include "worlds/plane/corridor_width.hpp"
 
 namespace warren {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A car among polygons, walls and bounds: poses (x, y, theta), and between two of them the shortest curve that its
-// steering can drive (worlds/poses/dubins_curve.hpp forwards only, worlds/poses/reeds_shepp_curve.hpp both ways). Its
+// steering can drive (worlds/poses/dubins_curve.cpp forwards only, worlds/poses/reeds_shepp_curve.cpp both ways). Its
 // body is a disc around the reference point or a polygon; the turning radius of the reference point is a number of its
 // own.
 //
@@ -25,10 +25,8 @@
 #include "core/base/world.hpp"
 #include "core/plane/se2.hpp"
 #include "scenes/scene/scene.hpp"
-#include "worlds/poses/body_among_obstacles.hpp"
 #include "worlds/poses/certified_motion.hpp"
-#include "worlds/poses/dubins_curve.hpp"
-#include "worlds/poses/reeds_shepp_curve.hpp"
+#include "worlds/poses/obstacle_tree.hpp"
 #include "worlds/poses/steering_curve.hpp"
 
 namespace warren {
@@ -69,29 +67,18 @@ class CarBody : public BodyAmongObstacles {
 
 /// Curve: DubinsCurve, ReedsSheppCurve or DifferentialCurve.
 template <class Curve>
-class CarWorld {
+class CarWorld : public CarBody {
  public:
-  static constexpr std::size_t dimension = 3;
   static constexpr bool one_way = Curve::one_way;
-  using State = Se2;
-  using Query = CarBody::Query;
 
-  CarWorld(const Scene& scene, const CarOptions& options, const Execution& execution = {})
-      : body_(scene, options, execution) {}
-
-  Query make_query() const { return body_.make_query(); }
-  State at_unit(const std::array<double, 3>& u) const { return body_.at_unit(u); }
-  bool is_free(const State& a, Query& query) const { return body_.is_free(a, query); }
-  bool is_free_motion(const State& a, const State& b, Query& query) const {
-    return body_.is_free_curve(curve(a, b), query);
-  }
-  double clearance(const State& a, double enough, Query& query) const { return body_.clearance(a, enough, query); }
+  using CarBody::CarBody;
+  bool is_free_motion(const State& a, const State& b, Query& query) const { return is_free_curve(curve(a, b), query); }
   double distance(const State& a, const State& b) const {
     if constexpr (Curve::turns_on_spot) {
-      const double turn = body_.turning_radius() * turn_between(a.theta, b.theta);
+      const double turn = turning_radius() * turn_between(a.theta, b.theta);
       return portable::hypot(b.x - a.x, b.y - a.y, turn);
     }
-    return body_.turning_radius() * Curve::shortest(a, b, body_.turning_radius()).length;
+    return turning_radius() * Curve::shortest(a, b, turning_radius()).length;
   }
   State interpolate(const State& a, const State& b, double t) const {
     const SteeringCurve way = curve(a, b);
@@ -99,20 +86,17 @@ class CarWorld {
   }
   std::array<double, 4> embed(const State& a) const {
     constexpr double shrink = Curve::turns_on_spot ? 1.0 : std::numbers::sqrt2 * 0.5;
-    const double turn = body_.turning_radius() * shrink;
+    const double turn = turning_radius() * shrink;
     const auto [sine, cosine] = portable::sin_and_cos(a.theta);
     return {shrink * a.x, shrink * a.y, turn * cosine, turn * sine};
   }
 
   SteeringCurve curve(const State& a, const State& b) const {
-    return {a, b, Curve::shortest(a, b, body_.turning_radius()), body_.turning_radius()};
+    return {a, b, Curve::shortest(a, b, turning_radius()), turning_radius()};
   }
   double suggested_samples(const Execution&) const { return 400.0; }
   std::uint64_t first_samples() const { return 100; }  ///< of a roadmap that is tried first
-  const CarBody& body() const { return body_; }
-
- private:
-  CarBody body_;
+  const CarBody& body() const { return *this; }
 };
 
 static_assert(SteerableWorld<CarWorld<DubinsCurve>>);
@@ -173,5 +157,11 @@ class PricedCar {
   const CarBody* car_;
   DrivingPrice price_;
 };
+
+/// Ways from a free pose whose last stroke is 0.8 turning radii long: poses, the first `from` itself, between each two
+/// of which the car's shortest curve is one free stroke. At most `most`, the fewest strokes first. None where `from`
+/// has such a stroke itself, or where each of the three searches tried 10,000 poses or all there are in vain. Driven
+/// back, they are ways in. Throws Stopped.
+std::vector<Path<Se2>> ways_out(const CarBody& body, const Se2& from, std::size_t most, const Execution& execution);
 
 }  // namespace warren

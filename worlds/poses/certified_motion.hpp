@@ -37,66 +37,30 @@ struct OpenPiece {
   OpenPiece after() const { return {middle + 0.5 * half, 0.5 * half}; }
 };
 
-namespace detail {
-
-/// First in, first out, of fixed size.
-class PieceQueue {
- public:
-  bool empty() const { return count_ == 0; }
-  bool full() const { return count_ + 2 > pieces_.size(); }
-  void push(const OpenPiece& piece) { pieces_[(first_ + count_++) % pieces_.size()] = piece; }
-  OpenPiece pop() {
-    const OpenPiece piece = pieces_[first_];
-    first_ = (first_ + 1) % pieces_.size();
-    --count_;
-    return piece;
-  }
-
- private:
-  std::array<OpenPiece, 256> pieces_;
-  std::size_t first_ = 0;
-  std::size_t count_ = 0;
-};
-
-/// Looks at the piece and what it is cut into, depth first; free when all of that is.
-template <class Look>
-MotionVerdict finish_depth_first(const OpenPiece& begin, const Look& look) {
-  std::array<OpenPiece, 40> stack;  // halves halve at least: one waits on each of 31 levels
-  std::size_t top = 0;
-  stack[top++] = begin;
-  while (top > 0) {
-    const OpenPiece piece = stack[--top];
-    bool split = false;
-    const MotionVerdict verdict = look(piece, split);
-    if (verdict == MotionVerdict::free) continue;
-    if (!split) return verdict;
-    stack[top++] = piece.after();
-    stack[top++] = piece.before();
-  }
-  return MotionVerdict::free;
-}
-
-}  // namespace detail
-
 /// The whole motion, breadth first. look(piece, split): the verdict on a piece, and, where it is refused, whether it
 /// shall be cut.
 template <class Look>
 MotionVerdict judge_pieces(const Look& look) {
-  detail::PieceQueue queue;
-  queue.push({0.5, 0.5});
-  while (!queue.empty()) {
-    const OpenPiece piece = queue.pop();
-    if (queue.full()) {
-      const MotionVerdict verdict = detail::finish_depth_first(piece, look);
-      if (verdict != MotionVerdict::free) return verdict;
-      continue;
-    }
+  std::array<OpenPiece, 256> ring;  // first in, first out
+  std::array<OpenPiece, 40> stack;  // halves halve at least: one waits on each of 31 levels
+  std::size_t first = 0;
+  std::size_t last = 0;
+  std::size_t top = 0;
+  ring[last++] = {0.5, 0.5};
+  while (top > 0 || first < last) {
+    const bool is_deep = top > 0 || last - first == ring.size();  // what a piece is cut into comes next
+    const OpenPiece piece = top > 0 ? stack[--top] : ring[first++ % ring.size()];
     bool split = false;
     const MotionVerdict verdict = look(piece, split);
     if (verdict == MotionVerdict::free) continue;
     if (!split) return verdict;
-    queue.push(piece.before());
-    queue.push(piece.after());
+    if (is_deep) {
+      stack[top++] = piece.after();
+      stack[top++] = piece.before();
+    } else {
+      ring[last++ % ring.size()] = piece.before();
+      ring[last++ % ring.size()] = piece.after();
+    }
   }
   return MotionVerdict::free;
 }

@@ -2,7 +2,6 @@
 #include "worlds/poses/motion_set.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -11,12 +10,10 @@
 #include <utility>
 
 #include "core/base/trigonometry.hpp"
-#include "core/base/whole.hpp"
 #include "core/plane/geometry.hpp"
 #include "core/plane/polygon.hpp"
 #include "core/plane/se2.hpp"
 #include "parallel/chunks.hpp"
-#include "spatial/maps/free_cells.hpp"
 #include "worlds/poses/certified_motion.hpp"
 
 namespace warren {

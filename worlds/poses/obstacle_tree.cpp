@@ -4,7 +4,6 @@
 #include "worlds/poses/obstacle_tree.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -141,19 +140,14 @@ ObstacleTree::ObstacleTree(const Scene& scene, double reach, const Execution& ex
     others.emplace_back(polygon.corners);
     for_each_side(polygon.corners, [&](Vec2 a, Vec2 b) { sides.push_back({a, b}); });
   }
+  const auto side_between = [](Vec2 a, Vec2 b) { return Side{a, b - a, inverse_square(b - a)}; };
   side_tree_ = tree_around(sides, execution);
   for (const std::uint32_t id : side_tree_.order()) sides_.push_back(side_between(sides[id].a, sides[id].b));
   polygon_tree_ = tree_around(others, execution);
   for (const std::uint32_t id : polygon_tree_.order()) polygons_.emplace_back(others[id].begin(), others[id].end());
-  file_convex(convex, execution);
-}
-
-ObstacleTree::Side ObstacleTree::side_between(Vec2 a, Vec2 b) { return {a, b - a, inverse_square(b - a)}; }
-
-void ObstacleTree::file_convex(const std::vector<std::span<const Vec2>>& polygons, const Execution& execution) {
-  convex_tree_ = tree_around(polygons, execution);
+  convex_tree_ = tree_around(convex, execution);
   for (const std::uint32_t id : convex_tree_.order()) {
-    const std::span<const Vec2> corners = polygons[id];
+    const std::span<const Vec2> corners = convex[id];
     const auto first = as_whole<std::uint32_t>(convex_sides_.size());
     const bool left = turning_of(corners) == Turning::left;
     for (std::size_t i = 0; i < corners.size(); ++i) {

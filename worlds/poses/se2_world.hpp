@@ -22,8 +22,8 @@
 #include "core/plane/se2.hpp"
 #include "core/run/execution.hpp"
 #include "scenes/scene/scene.hpp"
-#include "worlds/poses/body_among_obstacles.hpp"
 #include "worlds/poses/certified_motion.hpp"
+#include "worlds/poses/obstacle_tree.hpp"
 #include "worlds/rasters/corridor_points.hpp"
 
 namespace warren {
@@ -37,9 +37,6 @@ struct Se2Options {
 /// Immutable after construction; one Query a thread.
 class Se2World : public BodyAmongObstacles {
  public:
-  static constexpr std::size_t dimension = 3;
-  using State = Se2;
-
   /// Throws InputError for options out of range, outlines of the body and of obstacles that are no simple polygons, and
   /// a scene without anything that confines the body. Without bounds the box of the obstacles confines the reference
   /// point. Copies a map. Throws Stopped.

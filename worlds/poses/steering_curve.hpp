@@ -3,7 +3,7 @@
 // or a turn on the spot, of which a radian counts as a turning radius of way.
 // A SteeringWord is the recipe, in units of the turning radius; a SteeringCurve puts it between two poses, with the
 // poses between the pieces computed once, so that a pose on the way costs one sine and one cosine. Which word is the
-// shortest: worlds/poses/dubins_curve.hpp, worlds/poses/reeds_shepp_curve.hpp.
+// shortest: worlds/poses/dubins_curve.cpp, worlds/poses/reeds_shepp_curve.cpp.
 //
 // How a differential drive goes from pose to pose: it turns on the spot towards the goal, or away from it to drive
 // backwards, goes straight, and turns on the spot to the goal's heading. It takes the way that turns less, of equal
@@ -14,6 +14,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -143,6 +144,31 @@ std::vector<double> leg_lengths(std::span<const Se2> poses, std::span<const doub
 
 /// The pose at the share t of the leg from a to b, which is straight or an arc.
 Se2 pose_on_leg(const Se2& a, const Se2& b, double t);
+
+/// The shortest way of a car that only drives forwards.
+struct DubinsCurve {
+  /// A way from a to b is none from b to a.
+  static constexpr bool one_way = true;
+  static constexpr bool turns_on_spot = false;
+
+  /// The shortest word from a to b; turning_radius > 0.
+  static SteeringWord shortest(const Se2& a, const Se2& b, double turning_radius) noexcept;
+};
+
+/// The shortest way of a car that may also back up.
+struct ReedsSheppCurve {
+  /// The way from b to a is the way from a to b, driven back. That has to be seen to: between near poses whose headings
+  /// differ more, many words are as long as the turn. Of such the first that is tried is taken, anywhere.
+  static constexpr bool one_way = false;
+  static constexpr bool turns_on_spot = false;
+
+  /// The shortest word from a to b; turning_radius > 0.
+  static SteeringWord shortest(const Se2& a, const Se2& b, double turning_radius) noexcept;
+  /// Every word towards b of at most this length, in turning radii, in no order; some of them twice. What is visited
+  /// leads to b only if ends_at(word, seen_from(a, b, turning_radius), off_by_rounding(a, b, turning_radius)).
+  static void for_each_word(const Se2& a, const Se2& b, double turning_radius, double longest,
+                            const std::function<void(const SteeringWord&)>& visit);
+};
 
 struct DifferentialCurve {
   static constexpr bool one_way = false;

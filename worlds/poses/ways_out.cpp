@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/poses/ways_out.hpp"
-
+// Out of where a car that backs up can hardly move, such as a parking bay with half a metre to spare: by strokes,
+// straight or at full lock, each as long as it is certified free. Such strokes are shorter than the motions of a
+// lattice, and no sample falls between them. Searched breadth first, so the fewest strokes come first; poses that
+// differ by less than a hundredth of a turning radius and of a radian are one, then by less than 0.003 and by 0.001. A
+// queue of its own: core's searches have vertices, and a stroke has no end before it is driven.
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
-#include <optional>
 #include <set>
 
-#include "core/base/whole.hpp"
+#include "worlds/poses/car_world.hpp"
 
 namespace warren {
 namespace {

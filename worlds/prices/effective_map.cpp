@@ -1,15 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "worlds/prices/effective_map.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <span>
 #include <utility>
 
-#include "core/base/whole.hpp"
-#include "core/plane/geometry.hpp"
-#include "core/plane/polygon.hpp"
 #include "core/plane/se2.hpp"
 
 namespace warren {

@@ -4,21 +4,17 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "core/base/error.hpp"
 #include "core/base/whole.hpp"
 #include "core/plane/geometry.hpp"
-#include "spatial/maps/free_cells.hpp"
-#include "worlds/prices/effective_map.hpp"
 
 namespace warren {
 namespace {
 
 constexpr double half_diagonal = 0.70710678118654757;
 constexpr double units = 1 << 20;  // of steps, a cell
-constexpr double on_line = 1e-9;   // cells: so near to a border the lesser factor counts
 
 Cell cell_of(const OccupancyMap& map, Vec2 p) {
   return {bounded_whole<std::uint32_t>(p.x, 0.0, map.width() - 1.0),
@@ -163,7 +159,7 @@ std::span<const MapPrices::Site> MapPrices::sites(Cell cell, Scratch& scratch) c
   kept.sites.clear();
   const double nearest = field_->distance(cell.x, cell.y);
   const double limit = std::min(reach_, nearest + half_diagonal);
-  const double most = limit + half_diagonal + on_line;
+  const double most = limit + half_diagonal + AreaFactors::on_border;
   const Vec2 middle{cell.x + 0.5, cell.y + 0.5};
   const auto take = [&](std::int64_t edge_x, std::int64_t edge_y, int dx, int dy) {
     const Vec2 at{dx == 0 ? middle.x : static_cast<double>(edge_x), dy == 0 ? middle.y : static_cast<double>(edge_y)};
@@ -232,17 +228,15 @@ double MapPrices::nearness(Vec2 a, Vec2 b, Scratch& scratch) const {
   return sum;
 }
 
-double MapPrices::factor(Vec2 p) const {
-  const double of_areas = areas_.factor(p);
-  if (!(unknown_ > of_areas)) return of_areas;
-  return std::max(of_areas, AreaFactors::least_around(p, [&](std::int64_t x, std::int64_t y) {
-                    return map_.unknown.holds(x, y) ? unknown_ : 1.0;
-                  }));
-}
-
 /// The integral of factor - 1 over a piece in one cell.
 double MapPrices::areas_in(Vec2 p, Vec2 u, double length, Scratch& scratch) const {
-  return areas_.over(p, u, length, scratch.cuts, [&](Vec2 at) { return factor(at); });
+  return areas_.over(p, u, length, scratch.cuts, [&](Vec2 at) {
+    const double of_areas = areas_.factor(at);
+    if (!(unknown_ > of_areas)) return of_areas;
+    return std::max(of_areas, AreaFactors::least_around(at, [&](std::int64_t x, std::int64_t y) {
+                      return map_.unknown.holds(x, y) ? unknown_ : 1.0;
+                    }));
+  });
 }
 
 double MapPrices::areas(Vec2 a, Vec2 b, Scratch& scratch) const {

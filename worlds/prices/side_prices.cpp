@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/prices/side_prices.hpp"
-
 #include <algorithm>
 #include <cmath>
 

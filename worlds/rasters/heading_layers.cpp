@@ -110,13 +110,8 @@ HeadingLayers empty_lattice(const Scene& scene, const RobotSpec& robot, const La
     throw InputError("grid", "must have from 1 to 2^32 - 4 states: cells across the bounds, times headings",
                      fmt::format("{} x {} x {}", width, height, angles));
   }
-  HeadingLayers layers;
-  layers.origin = box.min;
-  layers.cell = grid.cell;
-  layers.width = bounded_whole<std::uint32_t>(width);
-  layers.height = bounded_whole<std::uint32_t>(height);
-  layers.angles = angles;
-  return layers;
+  const auto whole = [](double x) { return bounded_whole<std::uint32_t>(x); };
+  return {box.min, grid.cell, whole(width), whole(height), angles, {}, {}, {}, {}};
 }
 
 /// Where a piece of the job, widened by the radius, touches a wall or a side, or leaves the bounds.
@@ -396,12 +391,6 @@ HeadingLayers map_layers(const OccupancyMap& map, std::span<const Vec2> outline,
                          const Execution& execution) {
   if (outline.size() < 3) throw InputError("robot", "a polygon needs three corners or more");
   if (!(clearance >= 0.0)) throw InputError("clearance", "must be a number from 0", std::to_string(clearance));
-  HeadingLayers layers;
-  layers.origin = {0.5 * map.cell, 0.5 * map.cell};
-  layers.cell = map.cell;
-  layers.width = map.width();
-  layers.height = map.height();
-  layers.angles = angles;
   if (angles < 1 || map.blocked.size() > HeadingLayers::most_states / angles) {
     throw InputError("grid", "must have from 1 to 2^32 - 4 states: the map's cells times headings",
                      fmt::format("{} x {} x {}", map.width(), map.height(), angles));
@@ -415,6 +404,7 @@ HeadingLayers map_layers(const OccupancyMap& map, std::span<const Vec2> outline,
   constexpr double rounding = 1e-13;
   const double size = map.cell * (double{1} * map.width() + map.height());
   const double room = clearance + rounding * (std::abs(map.origin.x) + std::abs(map.origin.y) + size);
+  HeadingLayers layers{{0.5 * map.cell, 0.5 * map.cell}, map.cell, map.width(), map.height(), angles, {}, {}, {}, {}};
   const std::vector<LayerJob> jobs = list_layer_jobs(outline, layers);
   execution.reserve(jobs.size() * map.blocked.bytes());
   layers.bitmaps = parts_of_chunks(jobs.size(), 1, execution, [&](Range r) {

@@ -32,10 +32,9 @@ struct LayerOptions {
   std::optional<Box> region = {};  ///< where positions lie, instead of the bounds
 };
 
-/// Point, disc or polygon robots (others: InputError). States lie at i * cell from the lower corner of the bounds, i =
-/// 0
-/// ... extent / cell - 1; without bounds the obstacles' box takes their place and confines the reference point only.
-/// Points and discs have one heading. Throws InputError where there is no extent, or more than
+/// Point, disc or polygon robots (others: InputError). States lie at i * cell from the lower corner of the bounds, for
+/// i = 0 ... extent / cell - 1; without bounds the obstacles' box takes their place and confines the reference point
+/// only. Points and discs have one heading. Throws InputError where there is no extent, or more than
 /// HeadingLayers::most_states; Stopped.
 HeadingLayers orientation_layers(const Scene& scene, const RobotSpec& robot, const LayerOptions& options,
                                  const Execution& execution);

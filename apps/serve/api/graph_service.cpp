@@ -20,12 +20,14 @@ std::vector<DrawnEdge> edges_of(const RouteGraph& graph, const std::vector<Route
   return edges;
 }
 
-[[noreturn]] void refuse_blocked(const RouteGraph& graph, const std::vector<EdgeVerdict>& verdicts, std::size_t first) {
-  const auto blocked = std::count_if(verdicts.begin(), verdicts.end(), [](const EdgeVerdict& v) { return !v.free; });
-  const RouteEdge& edge = graph.edges[first];
+void refuse_blocked(const RouteGraph& graph, const std::vector<EdgeVerdict>& verdicts) {
+  const auto first = std::ranges::find(verdicts, false, &EdgeVerdict::free);
+  if (first == verdicts.end()) return;
+  const auto blocked = std::ranges::count(verdicts, false, &EdgeVerdict::free);
+  const RouteEdge& edge = graph.edges[static_cast<std::size_t>(first - verdicts.begin())];
   throw HttpError(422, "not_free", "edges",
                   fmt::format("{} of {} edges are not free, so nothing is saved; edge {} from node {} to {}: {}",
-                              blocked, verdicts.size(), edge.id, edge.from, edge.to, words_of(verdicts[first])));
+                              blocked, verdicts.size(), edge.id, edge.from, edge.to, words_of(*first)));
 }
 
 const EdgeJudge& judge_of(const ServedWorld& world, const Execution& execution) {
@@ -41,21 +43,8 @@ RouteGraph asked_graph(const ServedWorld& world, std::string_view body, const Ex
   judge_of(world, execution);  // or there are no such graphs
   const bool is_as_it_is = options.kind == GraphKind::roadmap && !options.samples && !options.neighbours;
   if (world.query() != nullptr && is_as_it_is) return graph_of_roadmap(world.query()->roadmap(), execution);
-  return built_graph(world.barred(execution), world.robot(), world.clearance(), options, execution);
-}
-
-HttpResponse told_graph(const ServedWorld& world, const RouteGraph& graph, const Execution& execution) {
-  const std::vector<EdgeVerdict> verdicts =
-      judge_of(world, execution).judge(edges_of(graph, ends_of(graph)), execution);
-  return {.body = graph_json(graph, verdicts, execution)};
-}
-
-HttpResponse saved_graph(const ServedWorld& world, const RouteGraph& graph, const Execution& execution) {
-  const std::vector<RouteEnds> ends = ends_of(graph);
-  const std::vector<EdgeVerdict> verdicts = judge_of(world, execution).judge(edges_of(graph, ends), execution);
-  const auto first = std::find_if(verdicts.begin(), verdicts.end(), [](const EdgeVerdict& v) { return !v.free; });
-  if (first != verdicts.end()) refuse_blocked(graph, verdicts, static_cast<std::size_t>(first - verdicts.begin()));
-  return {.type = "application/geo+json", .body = nav2_graph_text(graph, ends, execution)};
+  return graph_of_roadmap(built_roadmap(world.barred(execution), world.robot(), world.clearance(), options, execution),
+                          execution);
 }
 
 }  // namespace
@@ -65,9 +54,16 @@ HttpResponse answer_of_graphs(const ServedWorld& world, Place place, std::string
   if (place == Place::check) {
     return {.body = verdicts_json(judge_of(world, execution).judge(read_drawn_edges(body, execution), execution))};
   }
-  if (place == Place::open_graph) return told_graph(world, read_nav2_graph(body, execution), execution);
-  if (place == Place::save_graph) return saved_graph(world, read_graph_json(body, execution), execution);
-  return told_graph(world, asked_graph(world, body, execution), execution);
+  const bool is_saved = place == Place::save_graph;
+  const RouteGraph graph = is_saved                     ? read_graph_json(body, execution)
+                           : place == Place::open_graph ? read_nav2_graph(body, execution)
+                                                        : asked_graph(world, body, execution);
+  if (!is_saved) judge_of(world, execution);  // or there are no such graphs
+  const std::vector<RouteEnds> ends = ends_of(graph);
+  const std::vector<EdgeVerdict> verdicts = judge_of(world, execution).judge(edges_of(graph, ends), execution);
+  if (!is_saved) return {.body = graph_json(graph, verdicts, execution)};
+  refuse_blocked(graph, verdicts);
+  return {.type = "application/geo+json", .body = nav2_graph_text(graph, ends, execution)};
 }
 
 }  // namespace warren::serve

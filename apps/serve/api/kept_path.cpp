@@ -56,7 +56,6 @@ bool pack(std::span<const Vec2> path, std::size_t first, std::size_t last, std::
   return wrong == 0;
 }
 
-constexpr std::size_t legs_a_poll = std::size_t{1} << 16U;
 constexpr std::size_t blocks_a_look = 64;
 /// Points in a chain that doubles, and the same again where they are joined.
 constexpr std::size_t bytes_a_block = 4 * KeptCurve::block_points * sizeof(Vec2);
@@ -121,7 +120,6 @@ PathState only_state(const Answer& answer) {
 }
 Vec2 at(const PathState& state) { return {state.numbers[0], state.numbers[1]}; }
 
-constexpr std::size_t steps_a_poll = std::size_t{1} << 12U;
 constexpr double pixels_apart = 12.0;
 
 struct Shares {
@@ -153,7 +151,7 @@ class BodyWalk {
   void go(const PathLegs& legs, double along) {
     along_ = along;
     for (std::size_t leg = 0; leg < legs.leg_count() && !is_full(); ++leg) {
-      poll();
+      execution_.poll(steps_++);
       const double length = legs.length(leg);
       const auto seen = std::isfinite(legs.radius(leg)) ? std::optional(Shares{})
                                                         : shares_in(box_, at(legs.at(leg, 0.0)), at(legs.at(leg, 1.0)));
@@ -168,13 +166,10 @@ class BodyWalk {
   const std::vector<PathState>& places() const { return places_; }
 
  private:
-  void poll() {
-    if (steps_++ % steps_a_poll == 0) execution_.check();
-  }
   /// The end of a leg is the next one's start.
   void add_between(const PathLegs& legs, std::size_t leg, const Shares& seen, double length) {
     for (double k = std::ceil((along_ + seen.first * length) / apart_); !is_full(); k += 1.0) {
-      poll();
+      execution_.poll(steps_++);
       const double share = std::max(0.0, (k * apart_ - along_) / length);
       if (share >= 1.0 || share > seen.last) return;
       add(legs.at(leg, share));
@@ -305,7 +300,7 @@ Path<Vec2> curve_of(const Answer& answer, const Execution& execution) {
   const PathLegs legs(answer);
   Path<Vec2> curve{answer.path.front()};
   for (std::size_t leg = 0; leg < legs.leg_count(); ++leg) {
-    if (leg % legs_a_poll == 0) execution.check();
+    execution.poll(leg);
     const double parts = std::clamp(std::ceil(legs.length(leg) / (most_turn_rad * legs.radius(leg))), 1.0, 1000.0);
     for (double k = 1.0; k <= parts; k += 1.0) curve.push_back(at(legs.at(leg, k / parts)));
   }
@@ -315,7 +310,7 @@ Path<Vec2> curve_of(const Answer& answer, const Execution& execution) {
 std::vector<std::vector<Vec2>> seen_of(const KeptCurve& curve, const PathView& view, const Execution& execution) {
   std::vector<std::size_t> blocks;
   for (std::size_t block = 0; block < curve.block_count(); ++block) {
-    if (block % legs_a_poll == 0) execution.check();
+    execution.poll(block);
     if (curve.box(block).meets(view.box)) blocks.push_back(block);
   }
   SeenLegs joined;
@@ -340,7 +335,7 @@ std::vector<PathPlace> places_along(const Answer& answer, std::size_t count, con
   const PathLegs legs(answer);
   double length = 0.0;
   for (std::size_t leg = 0; leg < legs.leg_count(); ++leg) {
-    if (leg % legs_a_poll == 0) execution.check();
+    execution.poll(leg);
     length += legs.length(leg);
   }
   if (length == 0.0) return {{0.0, only_state(answer)}};
@@ -351,7 +346,7 @@ std::vector<PathPlace> places_along(const Answer& answer, std::size_t count, con
   double before = 0.0;  // length of all legs before
   double along = 0.0;   // of the reference point's way
   for (std::size_t leg = 0; places.size() < count; ++leg) {
-    if (leg % legs_a_poll == 0) execution.check();
+    execution.poll(leg);
     const double its = legs.length(leg);
     const bool turns = legs.shape() == LegShape::turning;
     const double way = turns ? distance(at(legs.at(leg, 0.0)), at(legs.at(leg, 1.0))) : its;

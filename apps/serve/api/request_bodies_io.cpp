@@ -81,8 +81,6 @@ std::vector<CellChange> cells_of(const OrderedJson& json, const std::string& whe
 // Polygons are few beside walls and are looked through; of walls, those to remove are sorted, so a change costs
 // O(n log k) for n walls and k shapes.
 
-constexpr std::size_t a_poll = 4096;
-
 double distance_to(const std::vector<Vec2>& polygon, Vec2 p) {
   if (contains(polygon, p)) return 0.0;
   double least = std::numeric_limits<double>::infinity();
@@ -108,7 +106,7 @@ class Removal {
     left.reserve(scene_.walls.size());
     std::vector<bool> used(walls_.size(), false);
     for (std::size_t i = 0; i < scene_.walls.size(); ++i) {
-      if (i % a_poll == 0) execution_.check();
+      execution_.poll(i);
       const Segment wall = scene_.walls.segment(i);
       if (!is_removed(wall, used)) left.push_back(wall);
     }
@@ -152,12 +150,12 @@ class Removal {
     std::size_t wall = scene_.walls.size();
     std::size_t polygon = scene_.polygons.size();
     for (std::size_t i = 0; i < scene_.walls.size(); ++i) {
-      if (i % a_poll == 0) execution_.check();
+      execution_.poll(i);
       const double away = distance(place.at, scene_.walls.segment(i));
       if (away <= least) std::tie(least, wall) = std::pair(away, i);
     }
     for (std::size_t i = 0; i < scene_.polygons.size(); ++i) {
-      if (i % a_poll == 0) execution_.check();
+      execution_.poll(i);
       const double away = distance_to(scene_.polygons[i].corners, place.at);
       if (away < least || (away <= least && wall == scene_.walls.size())) std::tie(least, polygon) = std::pair(away, i);
     }
@@ -225,13 +223,9 @@ std::string shapes_json(const DrawnShapes& shapes) {
   return json.closed();
 }
 
-std::string cells_json(const std::vector<CellChange>& cells, bool blocked) {
-  std::string text = "[";
-  for (const CellChange& to : cells) {
-    if (to.blocked != blocked) continue;
-    fmt::format_to(std::back_inserter(text), "{}[{},{}]", text.size() > 1 ? "," : "", to.cell.x, to.cell.y);
-  }
-  return text + "]";
+std::string cells_json(std::vector<CellChange> cells, bool blocked) {
+  std::erase_if(cells, [&](const CellChange& to) { return to.blocked != blocked; });
+  return json_list_of(cells, ",", [](const CellChange& to) { return fmt::format("[{},{}]", to.cell.x, to.cell.y); });
 }
 
 [[noreturn]] void refuse_word(std::string_view where, std::string_view expected) {
@@ -401,10 +395,8 @@ void tell_change(JsonObject& json, const ChangedScene& change) {
   }
   const CellCounts& counts = *change.cells;
   const bool is_listed = counts.blocked + counts.freed <= most_changed_shapes;
-  json.add("blocked_cells", counts.blocked);
-  json.add("freed_cells", counts.freed);
-  json.add("known_cells", counts.known);
-  json.add("can_be_taken_back", is_listed && counts.known == 0);
+  json.add("blocked_cells", counts.blocked, "freed_cells", counts.freed, "known_cells", counts.known,
+           "can_be_taken_back", is_listed && counts.known == 0);
   if (!is_listed) return;
   json.add_json("blocked", cells_json(change.made.cells, true));
   json.add_json("freed", cells_json(change.made.cells, false));

@@ -4,9 +4,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <utility>
-#include <vector>
 
+#include "core/base/enum_names.hpp"
 #include "core/base/printable.hpp"
 #include "scenes/text/scene_text.hpp"
 
@@ -26,30 +25,12 @@ Route tile_route(std::string_view z, std::string_view x, std::string_view y, con
 }
 
 Route api_route(const std::vector<std::string_view>& words) {
-  constexpr std::pair<std::string_view, Place> places[] = {{"health", Place::health},
-                                                           {"metrics", Place::metrics},
-                                                           {"world", Place::world},
-                                                           {"query", Place::query},
-                                                           {"query/batch", Place::batch},
-                                                           {"progress", Place::progress},
-                                                           {"scene", Place::scene},
-                                                           {"update", Place::update},
-                                                           {"check", Place::check},
-                                                           {"graph", Place::graph},
-                                                           {"graph/open", Place::open_graph},
-                                                           {"graph/save", Place::save_graph},
-                                                           {"path", Place::path},
-                                                           {"path/clearance", Place::clearance},
-                                                           {"path/sweep", Place::sweep}};
   const bool is_path = words.size() > 3 && words[2] == "path" && !words[3].empty();
   std::string name(words[2]);
   for (std::size_t i = is_path ? 4 : 3; i < words.size(); ++i) name.append("/").append(words[i]);
-  for (const auto& [known, place] : places) {
-    if (name == known && is_path == name.starts_with("path")) {
-      return {.place = place, .name = is_path ? std::string(words[3]) : std::string()};
-    }
-  }
-  refuse_path();
+  const auto place = enum_named<Place>(name);
+  if (!place || is_path != name.starts_with("path")) refuse_path();
+  return {.place = *place, .name = is_path ? std::string(words[3]) : std::string()};
 }
 
 Route place_of(std::string_view path, const TileGrid& grid, std::string_view hash) {
@@ -77,7 +58,7 @@ Route place_of(std::string_view path, const TileGrid& grid, std::string_view has
 
 }  // namespace
 
-bool is_of_graphs(Place place) { return place >= Place::graph; }
+bool is_of_graphs(Place place) { return place <= Place::check; }
 
 Route route_of(const HttpRequest& request, const TileGrid& grid, std::string_view hash) {
   Route route = place_of(request.path, grid, hash);
@@ -111,8 +92,7 @@ std::optional<std::vector<double>> numbers_parameter(const HttpRequest& request,
     if (number && std::isfinite(*number)) numbers.push_back(*number);
   }
   if (numbers.size() == count && words.size() == count) return numbers;
-  throw HttpError(400, "bad_request", "query",
-                  fmt::format("{}: expected {} number{}", name, count, count == 1 ? "" : "s"));
+  throw HttpError(400, "bad_request", "query", fmt::format("{}: expected {}", name, scene_text::numbers_text(count)));
 }
 
 bool flag_parameter(const HttpRequest& request, std::string_view name) {

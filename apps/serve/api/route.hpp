@@ -2,9 +2,12 @@
 // Which of a service's places a request is for.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "apps/serve/http/http_message.hpp"
 #include "apps/serve/tiles/web_tile.hpp"
@@ -12,26 +15,32 @@
 namespace warren::serve {
 
 enum class Place : std::uint8_t {
-  file,
-  health,
-  metrics,
-  world,
-  tile,
-  layer,
-  legend,
-  path,
-  clearance,
-  sweep,
-  query,
-  progress,
-  batch,
-  scene,
-  update,
   graph,
   open_graph,
   save_graph,
-  check
+  check,
+  health,
+  metrics,
+  world,
+  query,
+  batch,
+  progress,
+  scene,
+  update,
+  path,
+  clearance,
+  sweep,
+  file,
+  tile,
+  layer,
+  legend
 };
+/// Of those below api/, but for a path's own name; the last ones have other addresses.
+constexpr auto enum_names(Place) {
+  return std::array<std::string_view, 15>{"graph",   "graph/open", "graph/save", "check",          "health",
+                                          "metrics", "world",      "query",      "query/batch",    "progress",
+                                          "scene",   "update",     "path",       "path/clearance", "path/sweep"};
+}
 
 struct Route {
   Place place;

@@ -117,7 +117,6 @@ std::string_view ServedWorld::why_fixed() const {
 }
 
 std::unique_ptr<ServedWorld> ServedWorld::changed(Scene now, const Execution& execution) const {
-  if (const std::string_view why = why_fixed(); !why.empty()) throw UsageError(std::string(why));
   auto next = roadmap_ ? std::make_unique<ServedWorld>(update(*roadmap_, std::move(now), execution), execution)
                        : std::make_unique<ServedWorld>(std::move(now), body_, execution);
   next->is_changed_ = true;

@@ -90,8 +90,8 @@ class ServedWorld {
 
   /// Why it is not changed here, whatever the change; empty: ask changed().
   std::string_view why_fixed() const;
-  /// The same body and options in another scene: a roadmap is updated. Throws UsageError where that can't be done here,
-  /// InputError, Stopped.
+  /// The same body and options in another scene: a roadmap is updated. why_fixed() is empty. Throws UsageError where
+  /// that can't be done here, InputError, Stopped.
   std::unique_ptr<ServedWorld> changed(Scene now, const Execution& execution) const;
   /// Makes what first questions would wait for. Throws Stopped, InputError.
   void prepare(const Execution& execution) const;

@@ -5,7 +5,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 
 #include "apps/serve/api/kept_path.hpp"
 #include "apps/serve/graphs/route_graph.hpp"
@@ -21,12 +20,7 @@ namespace {
 // What the colours of layers mean, with figures.
 
 /// The steps, and behind them what the start does not reach.
-inline constexpr std::array<Rgb, unreached_ink + 1> search_inks = [] {
-  std::array<Rgb, unreached_ink + 1> inks{};
-  for (std::size_t step = 0; step < step_inks.size(); ++step) inks[step] = step_inks[step];
-  inks.back() = component_inks.back();
-  return inks;
-}();
+constexpr auto search_inks = step_inks_and(component_inks.back());
 
 struct ColorMeaning {
   Rgb color;
@@ -39,10 +33,8 @@ using Legend = std::vector<ColorMeaning>;
 std::string json_of_legend(const Legend& legend) {
   return json_list_of(legend, ",", [](const ColorMeaning& one) {
     const std::string opacity = one.is_step ? fmt::format("{:02x}", step_opacity) : "";
-    JsonObject entry;
-    entry.add("color", fmt::format("#{:02x}{:02x}{:02x}{}", one.color.red, one.color.green, one.color.blue, opacity));
-    entry.add("words", one.words);
-    return entry.closed();
+    const auto [red, green, blue] = one.color;
+    return json_object("color", fmt::format("#{:02x}{:02x}{:02x}{}", red, green, blue, opacity), "words", one.words);
   });
 }
 
@@ -57,20 +49,6 @@ std::string grouped_number(double value) {
 std::string unit_behind(const ServedWorld& world) {
   const std::string_view unit = unit_of(world.outline());
   return unit.empty() ? "" : " " + std::string(unit);
-}
-
-/// Of a scale whose steps below `needed` are not seen.
-void add_steps(Legend& legend, const Steps& steps, double needed, std::string_view behind) {
-  for (std::size_t step = 0; step < steps.count; ++step) {
-    const double low = std::max(needed, static_cast<double>(step) * steps.each);
-    const double high = static_cast<double>(step + 1) * steps.each;
-    const bool is_last = step + 1 == steps.count;
-    if (!is_last && high <= needed) continue;
-    legend.push_back({step_inks[step],
-                      is_last ? fmt::format("{}{} and more", grouped_number(low), behind)
-                              : fmt::format("{} to {}{}", grouped_number(low), grouped_number(high), behind),
-                      true});
-  }
 }
 
 /// Of a maze's lattice.
@@ -123,9 +101,11 @@ Legend search_legend(const StartDistances& found, const ServedWorld& world) {
   }
   return legend;
 }
+/// Steps below what the body needs are not seen.
 Legend clearance_legend(const ClearanceLayer& layer, const ServedWorld& world) {
   Legend legend;
   const std::string behind = unit_behind(world);
+  const Steps& steps = layer.steps();
   const double needed = layer.needed();
   if (needed > 0.0) {
     legend.push_back(
@@ -133,7 +113,16 @@ Legend clearance_legend(const ClearanceLayer& layer, const ServedWorld& world) {
          fmt::format("nearer than {}{}: too near for {}", grouped_number(needed), behind, robot_text(world.robot())),
          true});
   }
-  add_steps(legend, layer.steps(), needed, behind);
+  for (std::size_t step = 0; step < steps.count; ++step) {
+    const double low = std::max(needed, static_cast<double>(step) * steps.each);
+    const double high = static_cast<double>(step + 1) * steps.each;
+    const bool is_last = step + 1 == steps.count;
+    if (!is_last && high <= needed) continue;
+    legend.push_back({step_inks[step],
+                      is_last ? fmt::format("{}{} and more", grouped_number(low), behind)
+                              : fmt::format("{} to {}{}", grouped_number(low), grouped_number(high), behind),
+                      true});
+  }
   return legend;
 }
 
@@ -187,8 +176,7 @@ std::string why_no_axis(const ServedWorld& world) {
 std::string why_no_search(const ServedWorld& world) {
   if (world.query() == nullptr) return no_roadmap;
   if (has_lattice(world)) return "the index of a maze's lattice finds its paths without a search";
-  const bool is_round = world.robot().kind == RobotKind::point || world.robot().kind == RobotKind::disc;
-  if (!is_round) return "the distances of a roadmap are drawn for points and discs";
+  if (!is_round(world.robot())) return "the distances of a roadmap are drawn for points and discs";
   const auto planner = world.query()->roadmap().options.planner;
   if (planner == PlannerKind::prm) return {};
   return planner == PlannerKind::lazy_prm
@@ -213,8 +201,7 @@ std::vector<LayerAccount> accounts_of(const ServedWorld& world) {
 
 std::string json_of_account(const LayerAccount& account, const std::string& hash) {
   JsonObject json;
-  json.add("name", account.name);
-  json.add("there", account.why.empty());
+  json.add("name", account.name, "there", account.why.empty());
   if (!account.why.empty()) {
     json.add("why", account.why);
     return json.closed();
@@ -224,9 +211,7 @@ std::string json_of_account(const LayerAccount& account, const std::string& hash
     return json.closed();
   }
   const std::string address = fmt::format("v/{}/layers/{}/", hash, account.name);
-  json.add("url", address + "{z}/{x}/{y}.png");
-  json.add("legend", address + "legend");
-  json.add("from_zoom", std::uint32_t{account.from_zoom});
+  json.add("url", address + "{z}/{x}/{y}.png", "legend", address + "legend", "from_zoom", account.from_zoom);
   if (account.is_of_start) json.add("of_start", true);
   return json.closed();
 }
@@ -262,12 +247,6 @@ void WorldLayers::refuse_missing(std::string_view name) const {
 const RoadmapLayer& WorldLayers::roadmap(const Execution& execution) const {
   return roadmap_.get(
       execution, [&] { return std::make_unique<RoadmapLayer>(world_.query()->roadmap().arrays.parts(), execution); });
-}
-
-std::uint64_t WorldLayers::passages(const Execution& execution) const {
-  return passages_.get(execution, [&] {
-    return std::make_unique<std::uint64_t>(count_edges(world_.query()->roadmap(), execution).free);
-  });
 }
 
 const ClearanceLayer& WorldLayers::clearance(const Execution& execution) const {
@@ -309,7 +288,9 @@ std::string WorldLayers::legend(std::string_view name, const std::optional<std::
   if (name == "clearance") return json_of_legend(clearance_legend(clearance(execution), world_));
   if (name == "axis") return json_of_legend(axis_legend(axis(execution), !world_.robot().outline.empty()));
   if (world_.passages(execution) != nullptr) {
-    return json_of_legend(passages_legend(passages(execution), count_states(world_.query()->roadmap())));
+    const Roadmap& lattice = world_.query()->roadmap();
+    const auto count = [&] { return std::make_unique<std::uint64_t>(count_edges(lattice, execution).free); };
+    return json_of_legend(passages_legend(passages_.get(execution, count), count_states(lattice)));
   }
   if (name == "components") return json_of_legend(components_legend(roadmap(execution)));
   return json_of_legend(edges_legend(roadmap(execution), world_.robot().kind == RobotKind::car));

@@ -12,7 +12,6 @@
 
 #include "apps/serve/api/served_world.hpp"
 #include "apps/serve/http/kept_values.hpp"
-#include "apps/serve/tiles/distance_layers.hpp"
 #include "apps/serve/tiles/roadmap_layer.hpp"
 #include "core/run/execution.hpp"
 #include "parallel/once.hpp"
@@ -52,7 +51,6 @@ class WorldLayers {
   std::string from_start(const std::optional<std::vector<double>>& from, const Execution& execution,
                          const Use& use) const;
   const RoadmapLayer& roadmap(const Execution& execution) const;
-  std::uint64_t passages(const Execution& execution) const;
   const ClearanceLayer& clearance(const Execution& execution) const;
   const RoadmapLayer& axis(const Execution& execution) const;
 

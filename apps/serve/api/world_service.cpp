@@ -28,7 +28,6 @@
 #include "scenes/text/input_file_io.hpp"
 #include "scenes/text/json_text.hpp"
 #include "solve/answer/answer.hpp"
-#include "solve/answer/path_hash.hpp"
 #include "solve/answer/world_account.hpp"
 #include "solve/answer/write_answer_io.hpp"
 #include "solve/kept/ask_batch_io.hpp"
@@ -76,18 +75,15 @@ std::string RunningQuestions::told(const std::string& name, std::uint64_t from) 
   if (!is_running) return "{\"running\":false}";
   const auto told_json = [](const Told& one) {
     JsonObject json;
-    json.add("iterations", one.improvement.iterations);
-    json.add("seconds", one.improvement.seconds);
-    json.add("length", one.improvement.length);
-    json.add("cost", one.improvement.cost);
-    json.add("by", std::string_view(one.improvement.by));
-    json.add_or_null("lower_bound", one.improvement.lower_bound > 0.0, one.improvement.lower_bound);
+    const Improvement& better = one.improvement;
+    json.add("iterations", better.iterations, "seconds", better.seconds, "length", better.length, "cost", better.cost,
+             "by", better.by);
+    json.add_or_null("lower_bound", better.lower_bound > 0.0, better.lower_bound);
     json.add_json("chains", json_chains({one.way}, {}));
     return json.closed();
   };
   JsonObject json;
-  json.add("running", true);
-  json.add("first", first);
+  json.add("running", true, "first", first);
   json.add_json("improvements", json_list_of(fresh, ", ", told_json));
   return json.closed();
 }
@@ -114,9 +110,7 @@ void add_outline(JsonObject& json, const RobotSpec& robot) {
 
 std::string tiles_json(const TileGrid& grid, const std::string& hash) {
   JsonObject json;
-  json.add("url", "v/" + hash + "/tiles/{z}/{x}/{y}.png");
-  json.add("pixels", std::uint32_t{TileGrid::pixels});
-  json.add("levels", std::uint32_t{grid.levels});
+  json.add("url", "v/" + hash + "/tiles/{z}/{x}/{y}.png", "pixels", TileGrid::pixels, "levels", grid.levels);
   json.add_json("corner", place_json(grid.corner));
   json.add("span", grid.span);
   return json.closed();
@@ -163,9 +157,7 @@ std::string ground_json(const ServedWorld& world, const Question& body, const Ex
     for (std::size_t i = 0; i < layer.lines.size() && points <= most_points; ++i)
       chains.emplace_back(layer.lines[i].begin(), layer.lines[i].end());
     JsonObject json;
-    json.add("label", layer.label);
-    json.add("color", css_color(layer.fill.value_or(layer.color)));
-    json.add("opacity", layer.opacity);
+    json.add("label", layer.label, "color", css_color(layer.fill.value_or(layer.color)), "opacity", layer.opacity);
     json.add_json("chains", json_chains(chains, execution));
     return json.closed();
   };
@@ -178,27 +170,21 @@ std::string description_json(const ServedWorld& world, const Question& body, con
   const Scene& outline = world.outline();
   const bool asks_roadmap = world.query() != nullptr && world.is_own(*body.robot, *body.clearance);
   JsonObject json;
-  json.add("schema", "warren.service/1");
-  json.add("source", outline.source);
-  json.add("opened_as", world.is_roadmap() ? "roadmap" : "world");
-  json.add("description", words_of_world(outline));
-  json.add("hash", world.hash());
-  json.add("unit", unit_of(outline));
+  json.add("schema", "warren.service/1", "source", outline.source);
+  json.add("opened_as", world.is_roadmap() ? "roadmap" : "world", "description", words_of_world(outline));
+  json.add("hash", world.hash(), "unit", unit_of(outline));
   const Box& box = world.box();
   json.add_json("box", json_list(std::span<const double>(std::array{box.min.x, box.min.y, box.max.x, box.max.y})));
-  json.add("robot", robot_text(*body.robot));
-  json.add("state_size", std::uint64_t{state_size(*body.robot)});
+  json.add("robot", robot_text(*body.robot), "state_size", std::uint64_t{state_size(*body.robot)});
   json.add("clearance", *body.clearance);
   add_outline(json, *body.robot);
   json.add_json("start", json_list(std::span<const double>(outline.start)));
   json.add_json("goal", json_list(std::span<const double>(outline.goal)));
   json.add("asks_roadmap", asks_roadmap);
   json.add_json("planners", planners_json(world, body, asks_roadmap));
-  json.add("budget_ms", 1e3 * limits.budget_s);
-  json.add("changed", world.is_changed());
+  json.add("budget_ms", 1e3 * limits.budget_s, "changed", world.is_changed());
   const bool is_writable = limits.writable && world.why_fixed().empty();
-  json.add("writable", is_writable && !outline.map);
-  json.add("cells_writable", is_writable && outline.map.has_value());
+  json.add("writable", is_writable && !outline.map, "cells_writable", is_writable && outline.map.has_value());
   json.add("wants_token", limits.wants_token);
   json.add_json("options", json_list(std::span(limits.options)));
   json.add_json("tiles", tiles_json(world.tiles().grid(), world.hash()));
@@ -249,11 +235,18 @@ HttpResponse not_modified(std::string tag) {
 
 HttpError scene_too_large() { return {413, "scene_too_large", "path", "this scene is more than 64 MiB of text"}; }
 
-/// The address names the world but not its roadmap, so that a client asks anew and is told whether it has changed.
+/// A client asks anew and is told whether it has changed.
+HttpResponse tagged_response(const HttpRequest& request, const std::string& tag, std::string_view type,
+                             std::string_view bytes) {
+  if (request.if_none_match == tag) return not_modified(tag);
+  return {
+      .type = std::string(type), .body = std::string(bytes), .fields = {{"ETag", tag}, {"Cache-Control", "no-cache"}}};
+}
+
+/// The address names the world but not its roadmap.
 HttpResponse layer_response(const HttpRequest& request, const std::string& bytes) {
-  std::string tag = fmt::format("\"{:016x}\"", checksum(std::as_bytes(std::span(bytes))));
-  if (request.if_none_match == tag) return not_modified(std::move(tag));
-  return {.type = "image/png", .body = bytes, .fields = {{"ETag", std::move(tag)}, {"Cache-Control", "no-cache"}}};
+  const std::string tag = fmt::format("\"{:016x}\"", checksum(std::as_bytes(std::span(bytes))));
+  return tagged_response(request, tag, "image/png", bytes);
 }
 
 bool is_update(const HttpRequest& request) { return request.path == "/api/update" && request.method == "POST"; }
@@ -328,8 +321,7 @@ class PathService {
     for (const std::vector<Vec2>& chain : chains) points += chain.size();
     execution.reserve(points * bytes_a_point);
     JsonObject json;
-    json.add("length", kept.way.length);
-    json.add("points", std::uint64_t{kept.curve.size()});
+    json.add("length", kept.way.length, "points", std::uint64_t{kept.curve.size()});
     json.add_json("chains", json_chains(chains, execution));
     return {.body = json.closed() + "\n"};
   }
@@ -372,6 +364,7 @@ class PathService {
 
 class AnsweringService : public HttpService {
  public:
+  /// Refers to the world, and to what is kept for it and its followers; nullptr: nothing is.
   AnsweringService(const ServedWorld& world, const ServiceLimits& limits, LatestWays* kept)
       : world_(world),
         kept_(kept),
@@ -454,11 +447,7 @@ class AnsweringService : public HttpService {
   HttpResponse file(const HttpRequest& request, const std::string& name) const {
     const ServedFile* found = served_file(name);
     if (found == nullptr) throw HttpError(404, "not_found", "path", "there is nothing at this address");
-    const std::string tag = fmt::format("\"{}\"", found->tag);
-    if (request.if_none_match == tag) return not_modified(tag);
-    return {.type = std::string(found->type),
-            .body = std::string(found->bytes),
-            .fields = {{"ETag", tag}, {"Cache-Control", "no-cache"}}};
+    return tagged_response(request, fmt::format("\"{}\"", found->tag), found->type, found->bytes);
   }
   std::string layer_name(const HttpRequest& request, const Route& route) const {
     const std::string name = route.name + "/" + tile_name(route.tile);
@@ -620,7 +609,7 @@ class WritableService : public HttpService {
     Version(std::unique_ptr<ServedWorld> its_world, const ServiceLimits& limits, LatestWays* kept)
         : world(std::move(its_world)), service(*world, limits, kept) {}
     std::unique_ptr<ServedWorld> world;
-    WorldService service;
+    AnsweringService service;
   };
   using Versions = KeptValues<std::unique_ptr<Version>>;  // the current one is kept; the others are leased
 
@@ -645,9 +634,7 @@ class WritableService : public HttpService {
     ChangedScene made = changed(scene, wanted, maze_, execution);
     auto next = std::make_unique<Version>(before.changed(std::move(made.scene), execution), limits_, &kept_);
     JsonObject json;
-    json.add("schema", "warren.change/1");
-    json.add("before", std::string_view(before.hash()));
-    json.add("hash", std::string_view(next->world->hash()));
+    json.add("schema", "warren.change/1", "before", before.hash(), "hash", next->world->hash());
     tell_change(json, made);
     execution.check();
     versions_.put("", std::move(next), 0);
@@ -664,16 +651,9 @@ class WritableService : public HttpService {
 
 }  // namespace
 
-WorldService::WorldService(const ServedWorld& world, const ServiceLimits& limits, LatestWays* kept)
-    : answering_(std::make_unique<AnsweringService>(world, limits, kept)) {}
-std::size_t WorldService::most_body(const HttpRequest& head) const { return answering_->most_body(head); }
-std::optional<HttpResponse> WorldService::at_once(const HttpRequest& request, const HttpFigures& figures) {
-  return answering_->at_once(request, figures);
+std::unique_ptr<HttpService> world_service(const ServedWorld& world, const ServiceLimits& limits) {
+  return std::make_unique<AnsweringService>(world, limits, nullptr);
 }
-HttpResponse WorldService::work(const HttpRequest& request, const SignalFlag& gone) {
-  return answering_->work(request, gone);
-}
-void WorldService::prepare(const SignalFlag& gone) { answering_->prepare(gone); }
 
 std::unique_ptr<HttpService> writable_service(std::unique_ptr<ServedWorld> world, const ServiceLimits& limits,
                                               std::string token) {

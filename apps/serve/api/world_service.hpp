@@ -8,7 +8,6 @@
 #include <deque>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,12 +27,10 @@ namespace warren::serve {
 class RunningQuestions {
  public:
   /// A question that is named while this lives. Under a name that is taken, or "", nothing is seen of it.
-  class Entry {
+  class Entry : NotCopied {
    public:
     Entry(RunningQuestions& all, std::string name);
     ~Entry();
-    Entry(const Entry&) = delete;
-    Entry& operator=(const Entry&) = delete;
     bool is_seen() const { return is_seen_; }
     /// Keeps what came last, up to most_told; of ways of more than most_points the points are left out.
     void tell(const Improvement& improvement, std::vector<Vec2> way);
@@ -81,20 +78,8 @@ struct ServiceLimits {
   std::size_t batch_answers = std::size_t{32} << 20U;  ///< bytes
 };
 
-/// Of one world.
-class WorldService : public HttpService {
- public:
-  /// Refers to the world, and to what is kept for it and its followers.
-  WorldService(const ServedWorld& world, const ServiceLimits& limits, LatestWays* kept = nullptr);
-
-  std::size_t most_body(const HttpRequest& head) const override;
-  std::optional<HttpResponse> at_once(const HttpRequest& request, const HttpFigures& figures) override;
-  HttpResponse work(const HttpRequest& request, const SignalFlag& gone) override;
-  void prepare(const SignalFlag& gone) override;
-
- private:
-  std::unique_ptr<HttpService> answering_;
-};
+/// Of one world, to which it refers.
+std::unique_ptr<HttpService> world_service(const ServedWorld& world, const ServiceLimits& limits);
 
 /// A service whose world may be changed while it is asked (docs/service.md): each change makes a new world with a
 /// service of its own, and requests that have begun go on in the one that they began in. One change at a time. Changes

@@ -249,6 +249,7 @@ void check_has_axis(const Scene& scene, const RobotSpec& robot, double clearance
 
 Roadmap built_roadmap(const Scene& scene, const RobotSpec& robot, double clearance, const GraphOptions& options,
                       const Execution& execution) {
+  if (options.samples) check_size(*options.samples, 0);
   const bool is_axis = options.kind == GraphKind::axis;
   const Question body{.robot = is_axis ? disc_around(robot) : robot, .clearance = clearance};
   SolveOptions how{.planner = is_axis ? PlannerKind::voronoi : PlannerKind::prm, .seed = options.seed};
@@ -257,13 +258,6 @@ Roadmap built_roadmap(const Scene& scene, const RobotSpec& robot, double clearan
   check_buildable(scene, body, how);
   execution.reserve(scene.walls.size() * sizeof(Segment));
   return build_within(scene, body, how, execution, IndexChoice::none);
-}
-
-RouteGraph built_graph(const Scene& scene, const RobotSpec& robot, double clearance, const GraphOptions& options,
-                       const Execution& execution) {
-  check_drives_edges(robot);
-  if (options.samples) check_size(*options.samples, 0);
-  return graph_of_roadmap(built_roadmap(scene, robot, clearance, options, execution), execution);
 }
 
 RouteGraph simplified(const RouteGraph& graph, double within, const MayLead& may_lead, const Execution& execution) {

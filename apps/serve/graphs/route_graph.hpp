@@ -76,14 +76,12 @@ struct GraphOptions {
 
 /// Throws UsageError where there is no axis in such a world; any walls will do.
 void check_has_axis(const Scene& scene, const RobotSpec& robot, double clearance);
-/// Throws UsageError for what can't be built in this world, Stopped.
+/// Throws UsageError for what can't be built in this world, HttpError for more samples than can be edited, Stopped.
 Roadmap built_roadmap(const Scene& scene, const RobotSpec& robot, double clearance, const GraphOptions& options,
                       const Execution& execution);
-/// The same as a graph. Throws HttpError, too, for more than can be edited.
-RouteGraph built_graph(const Scene& scene, const RobotSpec& robot, double clearance, const GraphOptions& options,
-                       const Execution& execution);
 
-/// The free edges of a roadmap. Throws HttpError for more than can be edited, Stopped.
+/// The free edges of a roadmap. Throws UsageError for bodies that drive no straight edges, HttpError for more than can
+/// be edited, Stopped.
 RouteGraph graph_of_roadmap(const Roadmap& roadmap, const Execution& execution);
 
 // Route graphs with fewer nodes: where a chain of nodes leads on without a choice and nobody has written anything on

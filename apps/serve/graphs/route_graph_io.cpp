@@ -38,17 +38,9 @@ DrawnEdge drawn_edge(const OrderedJson& json, const std::string& where) {
 }
 
 std::string verdict_json(const EdgeVerdict& verdict) {
-  JsonObject json;
-  json.add("free", verdict.free);
-  if (verdict.free) {
-    json.add("clearance", verdict.clearance);
-  } else {
-    json.add("why", std::string_view(words_of(verdict)));
-    json.add("by", std::string_view(verdict.by));
-    json.add("distance", verdict.distance);
-    json.add("needed", verdict.needed);
-  }
-  return json.closed();
+  if (verdict.free) return json_object("free", true, "clearance", verdict.clearance);
+  return json_object("free", false, "why", words_of(verdict), "by", verdict.by, "distance", verdict.distance, "needed",
+                     verdict.needed);
 }
 
 std::string node_json(const RouteNode& node) {
@@ -62,9 +54,7 @@ std::string node_json(const RouteNode& node) {
 
 std::string edge_json(const RouteEdge& edge) {
   JsonObject json;
-  json.add("id", edge.id);
-  json.add("from", edge.from);
-  json.add("to", edge.to);
+  json.add("id", edge.id, "from", edge.from, "to", edge.to);
   if (edge.cost) json.add("cost", *edge.cost);
   if (edge.more != "{}") json.add("more", std::string_view(edge.more));
   return json.closed();
@@ -288,9 +278,7 @@ std::string graph_json(const RouteGraph& graph, const std::vector<EdgeVerdict>& 
     return json_list_of(items, ",\n", [&](const auto& item) { return execution.check(), json_of_item(item); });
   };
   JsonObject json;
-  json.add("schema", "warren.graph/1");
-  json.add("frame", std::string_view(graph.frame));
-  json.add("left_out", std::uint64_t{graph.left_out});
+  json.add("schema", "warren.graph/1", "frame", graph.frame, "left_out", std::uint64_t{graph.left_out});
   if (graph.more != "{}") json.add("more", std::string_view(graph.more));
   json.add_json("nodes", list(graph.nodes, node_json));
   json.add_json("edges", list(graph.edges, edge_json));

@@ -12,22 +12,14 @@
 
 namespace warren::serve {
 
-HttpResponse error_response(unsigned status, std::string_view code, std::string_view where, std::string_view message) {
-  JsonObject error;
-  error.add("code", code);
-  error.add("where", where);
-  error.add("message", message);
-  JsonObject json;
-  json.add_json("error", error.closed());
-  return {.status = status, .body = json.closed() + "\n"};
-}
-
 HttpResponse error_response(const HttpError& error) {
-  return error_response(error.status, error.code, error.where, error.what());
+  JsonObject json;
+  json.add_json("error", json_object("code", error.code, "where", error.where, "message", error.what()));
+  return {.status = error.status, .body = json.closed() + "\n"};
 }
 
 HttpResponse busy_response(std::string_view message) {
-  HttpResponse busy = error_response(503, "busy", "", message);
+  HttpResponse busy = error_response({503, "busy", "", message});
   busy.fields.emplace_back("Retry-After", "1");
   return busy;
 }

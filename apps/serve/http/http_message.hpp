@@ -42,7 +42,6 @@ struct HttpError : TextError {
 };
 
 /// The same as an answer.
-HttpResponse error_response(unsigned status, std::string_view code, std::string_view where, std::string_view message);
 HttpResponse error_response(const HttpError& error);
 /// 503 "busy", for one who may ask again in a second.
 HttpResponse busy_response(std::string_view message);

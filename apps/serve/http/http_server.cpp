@@ -198,8 +198,10 @@ void TaskCrew::work() {
   }
 }
 
+namespace {
+
 /// All of it is the business of the thread of run(), but for jobs' tasks, which touch their job alone.
-class HttpServer::Connections {
+class Connections : public HttpServer {
  public:
   Connections(const HttpPlace& place, const HttpLimits& limits, HttpService& service)
       : limits_(limits),
@@ -211,10 +213,10 @@ class HttpServer::Connections {
     address_ = fmt::format("http://{}:{}/", end.address().is_v6() ? "[" + name + "]" : name, end.port());
     names_ = {.port = end.port(), .is_loopback = end.address().is_loopback(), .public_urls = place.public_urls};
   }
-  const std::string& address() const { return address_; }
-  const HttpNames& names() const { return names_; }
-
-  void run(const SignalFlag& stop) {
+  std::string address() const override { return address_; }
+  std::uint16_t port() const override { return names_.port; }
+  bool is_loopback() const override { return names_.is_loopback; }
+  void run(const SignalFlag& stop) override {
     for (Tcp::acceptor& acceptor : acceptors_) accept(acceptor);
     crew_.offer([this] { prepare(); });
     look(stop);
@@ -252,7 +254,6 @@ class HttpServer::Connections {
     const std::uint64_t id = next_connection_++;
     auto& c = connections_[id] =
         std::make_unique<Connection>(id, std::move(socket), peer.address(), limits_.head_bytes + 8192);
-    figures_.connections = connections_.size();
     wait_for_request(*c);
   }
   bool has_place_for(const asio::ip::address& address) {
@@ -283,8 +284,7 @@ class HttpServer::Connections {
   void close(Connection& c) {
     if (c.closed) return;
     c.closed = true;
-    end_large_body(c);
-    end_unsent(c);
+    end_bodies(c);
     if (c.job != nullptr) {
       c.job->gone = SIGTERM;
       c.job->connection = nullptr;
@@ -292,11 +292,7 @@ class HttpServer::Connections {
     }
     Code ignored;
     c.socket.close(ignored);
-    if (c.pending == 0) forget(c);
-  }
-  void forget(Connection& c) {
-    connections_.erase(c.id);
-    figures_.connections = connections_.size();
+    if (c.pending == 0) connections_.erase(c.id);
   }
   void enter(Connection& c, Stage stage, double seconds) {
     c.stage = stage;
@@ -309,7 +305,7 @@ class HttpServer::Connections {
     return [this, &c, then, stage = c.stage](const Code& code, auto&&...) {
       --c.pending;
       if (c.closed) {
-        if (c.pending == 0) forget(c);
+        if (c.pending == 0) connections_.erase(c.id);
       } else if (c.stage == stage) {
         then(code);
       }
@@ -365,13 +361,16 @@ class HttpServer::Connections {
                        code ? refuse(c, error_of_parser(code)) : take_request(c);
                      }));
   }
-  void end_large_body(Connection& c) {
-    large_bodies_ -= c.has_large_body ? 1 : 0;
-    c.has_large_body = false;
+  /// Room for the bodies of its request and its answer.
+  void end_bodies(Connection& c) {
+    large_bodies_ -= std::exchange(c.has_large_body, false) ? 1 : 0;
+    unsent_bytes_ -= std::exchange(c.unsent_bytes, 0);
   }
   void take_request(Connection& c) {
     c.keep_alive = c.parser->get().keep_alive() && ending_ == never;
     c.request.body = std::move(c.parser->get().body());
+    figures_.connections = connections_.size();
+    figures_.working = jobs_.size();
     try {
       if (auto said = service_.at_once(c.request, figures_)) return write(c, std::move(*said));
     } catch (const HttpError& error) {
@@ -387,7 +386,6 @@ class HttpServer::Connections {
     Job* const working = c.job = job.get();
     c.stage = Stage::work;
     c.end = never;
-    figures_.working = jobs_.size();
     const bool taken = crew_.offer([this, working, number] {
       working->begun = Clock::now();
       working->response = answer_of(service_, working->request, working->gone);
@@ -396,7 +394,6 @@ class HttpServer::Connections {
     if (taken) return;
     jobs_.erase(number);
     c.job = nullptr;
-    figures_.working = jobs_.size();
     write(c, busy_response("too many requests wait; try again"));
   }
   /// Whoever has gone wants no answer, whatever was sent before that.
@@ -412,7 +409,6 @@ class HttpServer::Connections {
     const auto now = Clock::now();
     const double waited_s = seconds_between(job->offered, job->begun);
     const double worked_s = seconds_between(job->begun, now);
-    figures_.working = jobs_.size();
     ++figures_.worked;
     figures_.waited_s += waited_s;
     figures_.worked_s += worked_s;
@@ -450,10 +446,8 @@ class HttpServer::Connections {
     if (c.request.method != "HEAD" && said.status != 304) c.response->body() = std::move(said.body);
     http::async_write(c.socket, *c.response, while_open(c, [this, &c](const Code& code) { wrote(c, code); }));
   }
-  void end_unsent(Connection& c) { unsent_bytes_ -= std::exchange(c.unsent_bytes, 0); }
   void wrote(Connection& c, const Code& code) {
-    end_large_body(c);
-    end_unsent(c);
+    end_bodies(c);
     if (code) return close(c);
     if (c.response->keep_alive()) return wait_for_request(c);
     Code ignored;
@@ -522,13 +516,11 @@ class HttpServer::Connections {
   TaskCrew crew_;  // last: it ends before what its tasks look at
 };
 
-HttpServer::HttpServer(const HttpPlace& place, const HttpLimits& limits, HttpService& service)
-    : connections_(std::make_unique<Connections>(place, limits, service)) {}
-HttpServer::~HttpServer() = default;
-std::string HttpServer::address() const { return connections_->address(); }
-std::uint16_t HttpServer::port() const { return connections_->names().port; }
-bool HttpServer::is_loopback() const { return connections_->names().is_loopback; }
-void HttpServer::run(const SignalFlag& stop) { connections_->run(stop); }
+}  // namespace
+
+std::unique_ptr<HttpServer> http_server(const HttpPlace& place, const HttpLimits& limits, HttpService& service) {
+  return std::make_unique<Connections>(place, limits, service);
+}
 
 HttpResponse answer_of(HttpService& service, const HttpRequest& request, const SignalFlag& gone) noexcept {
   try {
@@ -536,17 +528,17 @@ HttpResponse answer_of(HttpService& service, const HttpRequest& request, const S
   } catch (const HttpError& error) {
     return error_response(error);
   } catch (const UsageError& error) {
-    return error_response(400, "usage", "", error.what());
+    return error_response({400, "usage", "", error.what()});
   } catch (const InputError& error) {
-    return error_response(400, "bad_data", error.where(), error.what());
+    return error_response({400, "bad_data", error.where(), error.what()});
   } catch (const Stopped& stopped) {
     const bool is_memory = stopped.reason == StopReason::memory;
-    return is_memory ? error_response(503, "memory", "", stop_text(stopped.reason, stopped.wanted_bytes))
-                     : error_response(504, "budget", "budget_ms", "this takes longer than it may");
+    return is_memory ? error_response({503, "memory", "", stop_text(stopped.reason, stopped.wanted_bytes)})
+                     : error_response({504, "budget", "budget_ms", "this takes longer than it may"});
   } catch (const std::bad_alloc&) {
-    return error_response(503, "memory", "", "memory is out");
+    return error_response({503, "memory", "", "memory is out"});
   } catch (const std::exception& error) {
-    return error_response(500, "internal", "", error.what());
+    return error_response({500, "internal", "", error.what()});
   }
 }
 

@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "apps/serve/http/http_message.hpp"
+#include "core/base/types.hpp"
 #include "core/run/execution.hpp"
 
 namespace warren::serve {
@@ -41,12 +42,9 @@ struct HttpFigures {
 };
 
 /// What a server asks of whom it serves: the whole of an interface, without sockets.
-class HttpService {
+class HttpService : NotCopied {
  public:
-  HttpService() = default;
   virtual ~HttpService() = default;
-  HttpService(const HttpService&) = delete;
-  HttpService& operator=(const HttpService&) = delete;
 
   /// Bytes that the body of such a request may have; asked before it is read. Throws HttpError for what there isn't.
   virtual std::size_t most_body(const HttpRequest& head) const = 0;
@@ -90,36 +88,28 @@ struct HttpPlace {
 
 class HttpServer {
  public:
-  /// Listens. Throws UsageError, naming address and port, where that can't be done.
-  HttpServer(const HttpPlace& place, const HttpLimits& limits, HttpService& service);
-  ~HttpServer();
-  HttpServer(const HttpServer&) = delete;
-  HttpServer& operator=(const HttpServer&) = delete;
+  virtual ~HttpServer() = default;
 
   /// "http://127.0.0.1:8765/", of the first address.
-  std::string address() const;
-  std::uint16_t port() const;
-  bool is_loopback() const;
+  virtual std::string address() const = 0;
+  virtual std::uint16_t port() const = 0;
+  virtual bool is_loopback() const = 0;
   /// Serves until the flag isn't 0, looks at it twenty times a second; then takes no more connections, lets what is
   /// worked on end within limits.patience_s, and returns.
-  void run(const SignalFlag& stop);
-
- private:
-  class Connections;
-  std::unique_ptr<Connections> connections_;
+  virtual void run(const SignalFlag& stop) = 0;
 };
+/// Listens; refers to the service. Throws UsageError, naming address and port, where that can't be done.
+std::unique_ptr<HttpServer> http_server(const HttpPlace& place, const HttpLimits& limits, HttpService& service);
 
 // A few threads that take tasks from a short queue, so that whoever hands them out never waits: a full queue says no.
 // A task may run loops of parallel/chunks.hpp.
 
-class TaskCrew {
+class TaskCrew : NotCopied {
  public:
   /// threads >= 1. Where the system makes fewer, there are fewer; where it makes none, offer() does the task itself.
   TaskCrew(unsigned threads, std::size_t most_waiting);
   /// As end().
   ~TaskCrew() { end(); }
-  TaskCrew(const TaskCrew&) = delete;
-  TaskCrew& operator=(const TaskCrew&) = delete;
 
   /// Does the task soon, on one of the threads; false: too many wait already. Tasks don't throw.
   bool offer(std::function<void()> task);

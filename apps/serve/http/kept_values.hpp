@@ -34,7 +34,6 @@ class KeptValues {
    public:
     Lease() = default;
     Lease(Lease&& other) noexcept : owner_(std::exchange(other.owner_, nullptr)), place_(other.place_) {}
-    Lease& operator=(Lease&&) = delete;
     ~Lease() {
       if (owner_ != nullptr) owner_->give_back(place_);
     }

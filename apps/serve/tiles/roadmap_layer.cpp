@@ -5,8 +5,11 @@
 #include <cstddef>
 #include <optional>
 
+#include "core/base/error.hpp"
+#include "core/search/search.hpp"
 #include "parallel/sort.hpp"
 #include "pictures/formats/raster.hpp"
+#include "planners/graph/queue_choice.hpp"
 
 namespace warren::serve {
 namespace {
@@ -30,29 +33,21 @@ class InkTile {
   }
   /// A PNG. Throws Stopped.
   std::string png() const {
-    std::vector<std::array<std::uint8_t, 3>> palette{{0, 0, 0}};
-    std::vector<std::uint8_t> alphas{0};
-    for (const Rgb ink : inks_) {
-      for (unsigned shade = 1; shade <= shades; ++shade) {
-        palette.push_back({ink.red, ink.green, ink.blue});
-        alphas.push_back(static_cast<std::uint8_t>(255 * shade / shades));
+    std::vector<std::uint8_t> opacities;
+    for (unsigned shade = 1; shade <= shades; ++shade) {
+      opacities.push_back(static_cast<std::uint8_t>(255 * shade / shades));
+    }
+    PixelTile tile;
+    for (std::size_t i = 0; i < tile.bytes.size(); ++i) {
+      unsigned most = 0;
+      for (std::size_t ink = 0; ink < masks_.size(); ++ink) {
+        const unsigned shade = masks_[ink] ? masks_[ink]->pixels()[i] >> 4U : 0;
+        if (shade <= most) continue;
+        most = shade;
+        tile.bytes[i] = static_cast<std::uint8_t>(shades * ink + shade);
       }
     }
-    std::vector<std::uint8_t> row(TileGrid::pixels);
-    const auto row_of = [&](std::size_t y) {
-      for (std::size_t x = 0; x < row.size(); ++x) {
-        unsigned most = 0;
-        row[x] = 0;
-        for (std::size_t ink = 0; ink < masks_.size(); ++ink) {
-          const unsigned shade = masks_[ink] ? masks_[ink]->pixels()[y * TileGrid::pixels + x] >> 4U : 0;
-          if (shade <= most) continue;
-          most = shade;
-          row[x] = static_cast<std::uint8_t>(shades * ink + shade);
-        }
-      }
-      return static_cast<const std::uint8_t*>(row.data());
-    };
-    return png_of_rows(palette, alphas, row_of, execution_);
+    return png_of_inks(tile, inks_, opacities, execution_);
   }
 
  private:
@@ -65,13 +60,40 @@ constexpr double edge_pixels = 1.3;
 constexpr double milestone_pixels = 4.0;
 constexpr double edge_opacity = 0.75;
 constexpr double far_opacity = 0.6;
-constexpr std::size_t items_a_poll = std::size_t{1} << 14U;
 /// One edge in so many may be in the list that each box looks at.
 constexpr std::uint64_t edges_a_long_one = 256;
 
+/// The free edges, with the start as the last but one: a question from a place to itself links it, and hands them out.
+PlannedRoadmap<Vec2> linked(const RoadmapQuery& query, const std::vector<double>& start, const Execution& execution) {
+  const RoadmapParts parts = query.roadmap().arrays.parts();
+  execution.reserve(parts.to.size_bytes() + (parts.first.size() * (sizeof(Vec2) + sizeof(EdgeEnd))));
+  QuestionScratch scratch;
+  ByProducts kept;
+  const Answer answer = query.ask_within(start, start, {}, execution, scratch, &kept);
+  if (answer.outcome == Outcome::stopped) throw Stopped(answer.stop_reason.value_or(StopReason::time));
+  if (answer.outcome == Outcome::start_blocked) throw UsageError("from: the body does not fit there");
+  if (kept.roadmap.states.size() != count_states(query.roadmap()) + 2) {
+    throw UsageError("from: a roadmap of this kind does not say how the start is linked");
+  }
+  return std::move(kept.roadmap);
+}
+
+SearchState searched(const PlannedRoadmap<Vec2>& roadmap, const Execution& execution) {
+  const std::size_t count = roadmap.states.size();
+  const auto next = [&](VertexId v, const auto& visit) {
+    for (const VertexId w : roadmap.graph.neighbours(v)) visit(w, distance(roadmap.states[v], roadmap.states[w]));
+  };
+  const auto no_estimate = [](VertexId) { return 0.0; };
+  SearchState state;
+  search_best_first(QueueKind::heap, count, static_cast<VertexId>(count - 2), no_vertex, next, no_estimate, state,
+                    execution);
+  execution.check();
+  return state;
+}
+
 }  // namespace
 
-RoadmapLayer::RoadmapLayer(const RoadmapParts& parts, const Execution& execution) : placed_(parts, execution) {
+RoadmapLayer::RoadmapLayer(const RoadmapParts& parts, const Execution& execution) : PlacedRoadmap(parts, execution) {
   rank_components(parts.component, execution);
 }
 
@@ -80,7 +102,7 @@ void RoadmapLayer::rank_components(std::span<const VertexId> component, const Ex
   const std::size_t count = component.size();
   const auto for_each = [&](const auto& visit) {
     for (VertexId v = 0; v < count; ++v) {
-      if (v % items_a_poll == 0) execution.check();
+      execution.poll(v);
       visit(v);
     }
   };
@@ -106,9 +128,9 @@ void RoadmapLayer::rank_components(std::span<const VertexId> component, const Ex
 
 /// One more than are drawn where there are too many.
 std::vector<PlacedRoadmap::Edge> RoadmapLayer::edges_in(const Box& box, const Execution& execution) const {
-  std::vector<PlacedRoadmap::Edge> edges;
-  placed_.for_each_edge_near(box, execution, [&](PlacedRoadmap::Edge edge) {
-    if (box.meets(box_of({placed_.at(edge.from), placed_.at(edge.to)}))) edges.push_back(edge);
+  std::vector<Edge> edges;
+  for_each_edge_near(box, execution, [&](Edge edge) {
+    if (box.meets(box_of({at(edge.from), at(edge.to)}))) edges.push_back(edge);
     return edges.size() <= most_drawn_edges;
   });
   return edges;
@@ -124,21 +146,42 @@ std::string RoadmapLayer::draw(const Box& box, double pixel, std::span<const Rgb
   const OnTile on_tile{box, pixel};
   InkTile tile(inks, execution);
   const Box reach = box.grown(milestone_pixels * pixel);
-  const std::vector<PlacedRoadmap::Edge> edges = edges_in(reach, execution);
+  const std::vector<Edge> edges = edges_in(reach, execution);
   const bool is_far = edges.size() > most_drawn_edges;
   for (std::size_t i = 0; i < edges.size() && !is_far; ++i) {
     if (i % 64 == 0) execution.check();
     const auto [from, to] = edges[i];
     Mask& mask = tile.of(of_milestone.empty() ? 0 : std::max(of_milestone[from], of_milestone[to]));
-    mask.draw_line(on_tile(placed_.at(from)), on_tile(placed_.at(to)), edge_pixels, edge_opacity);
+    mask.draw_line(on_tile(at(from)), on_tile(at(to)), edge_pixels, edge_opacity);
   }
-  placed_.for_each_milestone(reach, execution, [&](VertexId v) {
-    const Vec2 p = on_tile(placed_.at(v));
+  for_each_milestone(reach, execution, [&](VertexId v) {
+    const Vec2 p = on_tile(at(v));
     tile.of(of_milestone.empty() ? 0 : of_milestone[v])
         .draw_line(p, p, is_far ? 1.0 : milestone_pixels, is_far ? far_opacity : 1.0);
     return true;
   });
   return tile.png();
+}
+
+StartDistances start_distances(const RoadmapQuery& query, const std::vector<double>& start,
+                               const Execution& execution) {
+  const PlannedRoadmap<Vec2> roadmap = linked(query, start, execution);
+  const SearchState state = searched(roadmap, execution);
+  StartDistances found;
+  execution.reserve(roadmap.states.size());
+  found.inks.assign(roadmap.states.size() - 2, unreached_ink);
+  for (VertexId v = 0; v < found.inks.size(); ++v) {
+    execution.poll(v);
+    if (!state.reached(v)) continue;
+    ++found.reached;
+    found.farthest = std::max(found.farthest, state.g(v));
+  }
+  found.steps = Steps::up_to(found.farthest, found.farthest);
+  for (VertexId v = 0; v < found.inks.size(); ++v) {
+    execution.poll(v);
+    if (state.reached(v)) found.inks[v] = static_cast<std::uint8_t>(found.steps.of(state.g(v)));
+  }
+  return found;
 }
 
 std::string draw_passages(const LatticePassages& passages, const Box& box, double pixel, const Execution& execution) {
@@ -188,7 +231,7 @@ void PlacedRoadmap::file_milestones(const Execution& execution) {
   const double cells = static_cast<double>(count) / milestones_a_cell;
   side_ = std::clamp<std::size_t>(static_cast<std::size_t>(std::sqrt(cells)), 1, most_side);
   for (VertexId v = 0; v < count; ++v) {
-    if (v % items_a_poll == 0) execution.check();
+    execution.poll(v);
     box_.include(at(v));
   }
   by_cell_ = counting_sort(count, side_ * side_, execution, [&](std::size_t v) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A roadmap as tiles above the world: its milestones and free edges, in one ink or by component.
+// A roadmap as tiles above the world: its milestones and free edges, in one ink, by component, or by how far they are
+// from a start.
 #pragma once
 
 #include <algorithm>
@@ -15,6 +16,7 @@
 #include "pictures/model/colors.hpp"
 #include "planners/graph/roadmap_arrays.hpp"
 #include "planners/lengths/lattice_passages.hpp"
+#include "solve/kept/roadmap_query.hpp"
 
 namespace warren::serve {
 /// A roadmap's milestones and free edges by place. Milestones are filed in a grid; an edge is found by its ends, which
@@ -102,7 +104,7 @@ inline constexpr std::array<Rgb, 8> component_inks{{colors::series[0],
 enum class RoadmapInk : std::uint8_t { one, by_component };
 
 /// Immutable; any number of threads may draw.
-class RoadmapLayer {
+class RoadmapLayer : public PlacedRoadmap {
  public:
   /// Refers to the arrays. Six bytes a milestone, and eight more meanwhile. Throws Stopped.
   RoadmapLayer(const RoadmapParts& parts, const Execution& execution);
@@ -114,8 +116,6 @@ class RoadmapLayer {
                    const Execution& execution) const;
   /// Which of component_inks the milestone has.
   std::uint8_t rank(VertexId v) const { return ranks_[v]; }
-  std::uint64_t milestones() const { return placed_.milestones(); }
-  std::uint64_t free_edges() const { return placed_.free_edges(); }
   /// Milestones in each of component_inks.
   const std::array<std::uint64_t, component_inks.size()>& milestones_of_ink() const { return of_ink_; }
   /// Components that share the last ink.
@@ -123,13 +123,28 @@ class RoadmapLayer {
 
  private:
   void rank_components(std::span<const VertexId> component, const Execution& execution);
-  std::vector<PlacedRoadmap::Edge> edges_in(const Box& box, const Execution& execution) const;
+  std::vector<Edge> edges_in(const Box& box, const Execution& execution) const;
 
-  PlacedRoadmap placed_;
   std::vector<std::uint8_t> ranks_;
   std::array<std::uint64_t, component_inks.size()> of_ink_ = {};
   std::uint64_t small_components_ = 0;
 };
+
+/// Of a milestone that the start does not reach, beside the steps' own numbers.
+inline constexpr std::uint8_t unreached_ink = step_inks.size();
+
+/// How far the milestones of a roadmap are from a start, along its free edges: what a layer of the service colours.
+struct StartDistances {
+  std::vector<std::uint8_t> inks;  ///< one a milestone: the step of its distance, or unreached_ink
+  Steps steps;
+  std::uint64_t reached = 0;
+  double farthest = 0.0;  ///< 0 where none is reached
+};
+
+/// Of points and discs in a roadmap whose edges are checked, by one search from the start, which is linked as a
+/// question links it. start: two numbers. Throws UsageError where the body does not fit there or the roadmap is another
+/// one, InputError, Stopped.
+StartDistances start_distances(const RoadmapQuery& query, const std::vector<double>& start, const Execution& execution);
 
 /// A PNG of the passages of a maze's lattice, from middle to middle of unit cells, the first of which is at (1, 1):
 /// empty where a cell has less than 8 pixels. Throws Stopped.

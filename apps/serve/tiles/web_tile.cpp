@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "scenes/files/png_io.hpp"
+#include "scenes/files/image_io.hpp"
 #include "scenes/text/scene_text.hpp"
 
 namespace warren::serve {
@@ -29,6 +29,21 @@ double round_number_from(double least) {
     if (times * power >= least) return times * power;
   }
   return 10.0 * power;
+}
+
+using PngColors = std::vector<std::array<std::uint8_t, 3>>;
+
+std::string png_of(const PixelTile& tile, PngColors palette, std::vector<std::uint8_t> alphas,
+                   const Execution& execution) {
+  std::string bytes;
+  write_png({.width = TileGrid::pixels,
+             .height = TileGrid::pixels,
+             .palette = std::move(palette),
+             .alphas = std::move(alphas),
+             .compression = 1,
+             .row = [&](std::size_t y) { return tile.bytes.data() + y * TileGrid::pixels; }},
+            execution, [&](std::string_view piece) { bytes += piece; });
+  return bytes;
 }
 
 }  // namespace
@@ -81,44 +96,26 @@ std::size_t Steps::of(double value) const {
   return static_cast<std::size_t>(std::min(value / each, static_cast<double>(count - 1)));
 }
 
-std::string png_of_rows(std::vector<std::array<std::uint8_t, 3>> palette, std::vector<std::uint8_t> alphas,
-                        const std::function<const std::uint8_t*(std::size_t)>& row, const Execution& execution) {
-  std::string bytes;
-  write_png({.width = TileGrid::pixels,
-             .height = TileGrid::pixels,
-             .palette = std::move(palette),
-             .alphas = std::move(alphas),
-             .compression = 1,
-             .row = row},
-            execution, [&](std::string_view piece) { bytes += piece; });
-  return bytes;
-}
-
-std::string png_of_steps(const PixelTile& tile, std::span<const Rgb> inks, const Execution& execution) {
-  std::vector<std::array<std::uint8_t, 3>> palette{{0, 0, 0}};
+std::string png_of_inks(const PixelTile& tile, std::span<const Rgb> inks, std::span<const std::uint8_t> opacities,
+                        const Execution& execution) {
+  PngColors palette{{0, 0, 0}};
   std::vector<std::uint8_t> alphas{0};
   for (const Rgb ink : inks) {
-    palette.push_back({ink.red, ink.green, ink.blue});
-    alphas.push_back(step_opacity);
+    palette.insert(palette.end(), opacities.size(), {ink.red, ink.green, ink.blue});
+    alphas.insert(alphas.end(), opacities.begin(), opacities.end());
   }
-  const auto row = [&](std::size_t y) { return tile.bytes.data() + y * TileGrid::pixels; };
-  return png_of_rows(palette, alphas, row, execution);
+  return png_of(tile, palette, alphas, execution);
 }
 
-std::string png_of_shades(const PixelTile& tile, Rgb ink, const Execution& execution) {
+std::string png_of_shades(PixelTile tile, Rgb ink, const Execution& execution) {
   constexpr unsigned shades = 16;
-  std::vector<std::array<std::uint8_t, 3>> palette;
+  PngColors palette;
   for (unsigned i = 0; i < shades; ++i) {
     const Rgb color = mixed(ink, colors::paper, 100 * i / (shades - 1));
     palette.push_back({color.red, color.green, color.blue});
   }
-  std::vector<std::uint8_t> row(TileGrid::pixels);
-  const auto row_of = [&](std::size_t y) {
-    const std::uint8_t* from = tile.bytes.data() + y * TileGrid::pixels;
-    for (std::size_t x = 0; x < row.size(); ++x) row[x] = static_cast<std::uint8_t>(from[x] >> 4U);
-    return static_cast<const std::uint8_t*>(row.data());
-  };
-  return png_of_rows(palette, {}, row_of, execution);
+  for (std::uint8_t& shade : tile.bytes) shade = static_cast<std::uint8_t>(shade >> 4U);
+  return png_of(tile, palette, {}, execution);
 }
 
 }  // namespace warren::serve

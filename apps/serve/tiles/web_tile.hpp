@@ -7,7 +7,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -72,6 +71,13 @@ inline constexpr std::array<Rgb, 8> step_inks{{{68, 1, 84},
                                                {41, 122, 142},
                                                {34, 142, 140},
                                                {31, 161, 135}}};
+/// The same, and one more behind them.
+constexpr std::array<Rgb, step_inks.size() + 1> step_inks_and(Rgb more) {
+  std::array<Rgb, step_inks.size() + 1> inks{};
+  for (std::size_t step = 0; step < step_inks.size(); ++step) inks[step] = step_inks[step];
+  inks.back() = more;
+  return inks;
+}
 /// Of inks that lie above the world's.
 inline constexpr std::uint8_t step_opacity = 153;
 
@@ -92,14 +98,12 @@ struct PixelTile {
   std::uint8_t& at(std::size_t x, std::size_t y) { return bytes[y * TileGrid::pixels + x]; }
 };
 
-/// A tile as a PNG: row(y) has the number of a colour a pixel. alphas: of the first colours. Throws Stopped.
-std::string png_of_rows(std::vector<std::array<std::uint8_t, 3>> palette, std::vector<std::uint8_t> alphas,
-                        const std::function<const std::uint8_t*(std::size_t)>& row, const Execution& execution);
-
-/// Of bytes that are 0 for nothing, else one more than the number of their ink. At most 255 inks. Throws Stopped.
-std::string png_of_steps(const PixelTile& tile, std::span<const Rgb> inks, const Execution& execution);
+/// A tile as a PNG: of bytes that are 0 for nothing, else 1 + ink * opacities.size() + opacity, the numbers of both. At
+/// most 255 of them. Throws Stopped.
+std::string png_of_inks(const PixelTile& tile, std::span<const Rgb> inks, std::span<const std::uint8_t> opacities,
+                        const Execution& execution);
 /// In sixteen shades between paper, 0, and ink, 255: small, and made in about a millisecond. Throws Stopped.
-std::string png_of_shades(const PixelTile& tile, Rgb ink, const Execution& execution);
+std::string png_of_shades(PixelTile tile, Rgb ink, const Execution& execution);
 
 /// How dark a grid of cells is, seen from afar: level k has a byte for each square of 2^k x 2^k cells, the mean of its
 /// four squares of level k - 1. Level 0, the cells themselves, is not held: whoever has them says how dark each is. A
@@ -107,7 +111,6 @@ std::string png_of_shades(const PixelTile& tile, Rgb ink, const Execution& execu
 /// lies beyond the cells is not dark.
 class ShadePyramid {
  public:
-  ShadePyramid() = default;
   /// shade(x, y) is 0 .. 255. Throws Stopped.
   template <class Shade>
   ShadePyramid(std::uint32_t width, std::uint32_t height, const Shade& shade, const Execution& execution) {

@@ -5,13 +5,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "core/base/error.hpp"
 #include "core/plane/geometry.hpp"
+#include "parallel/chunks.hpp"
 #include "parallel/sort.hpp"
 #include "pictures/formats/raster.hpp"
-#include "solve/kept/maze_bits.hpp"
+#include "solve/kept/lattice_roadmap.hpp"
 #include "spatial/maps/distance_field.hpp"
 #include "spatial/obstacles/box_tree.hpp"
 
@@ -45,13 +47,15 @@ class MazeTiles : public WorldTiles {
     } else {
       draw_near(tile, place, std::int64_t{1} << -level, execution);
     }
-    return png_of_shades(tile, colors::wall, execution);
+    return png_of_shades(std::move(tile), colors::wall, execution);
   }
 
-  std::unique_ptr<PlaceDistances> distances(const Execution& execution) const override;
+  PlaceDistances distances(const Execution&) const override {
+    return {[this](Vec2 place) { return distance_at(place); }};
+  }
   double largest_pixel_of_distances() const override { return 1.0 / 8.0; }
 
-  LatticeSize size() const { return passages_.size(); }
+ private:
   /// Column and row from 0; -1: the outline's left and lower side.
   bool has_right_wall(std::int64_t col, std::int64_t row) const {
     if (col < 0) return outline_.left[static_cast<std::size_t>(row)];
@@ -63,8 +67,6 @@ class MazeTiles : public WorldTiles {
     if (row + 1 == passages_.size().rows) return outline_.upper[static_cast<std::size_t>(col)];
     return (open_at(col, row) & 2U) == 0;
   }
-
- private:
   unsigned open_at(std::int64_t col, std::int64_t row) const {
     return passages_.open_at(static_cast<std::uint32_t>(col), static_cast<std::uint32_t>(row));
   }
@@ -128,20 +130,12 @@ class MazeTiles : public WorldTiles {
     }
   }
 
-  LatticePassages passages_;
-  MazeOutline outline_;
-  CellsOnTiles cells_;
-  ShadePyramid far_;
-};
+  static constexpr double farthest = 4.0;  // cells; what is farther is as far
 
-/// By the walls of the cells around the place's own, ring by ring, until those farther out can't be nearer.
-class MazeDistances : public PlaceDistances {
- public:
-  explicit MazeDistances(const MazeTiles& tiles) : tiles_(tiles) {}
-
-  double at(Vec2 place) const override {
-    const double cols = tiles_.size().cols;
-    const double rows = tiles_.size().rows;
+  /// By the walls of the cells around the place's own, ring by ring, until those farther out can't be nearer.
+  double distance_at(Vec2 place) const {
+    const double cols = passages_.size().cols;
+    const double rows = passages_.size().rows;
     const bool is_inside = place.x >= 0.5 && place.y >= 0.5 && place.x <= cols + 0.5 && place.y <= rows + 0.5;
     if (!is_inside) return std::numeric_limits<double>::quiet_NaN();
     const auto col = static_cast<std::int64_t>(std::min(place.x - 0.5, cols - 1.0));
@@ -156,50 +150,28 @@ class MazeDistances : public PlaceDistances {
     }
     return least;
   }
-
- private:
-  static constexpr double farthest = 4.0;  // cells; what is farther is as far
-
   /// To the right and the upper wall of a cell; any column and row.
   double to_walls(Vec2 place, std::int64_t col, std::int64_t row) const {
-    const LatticeSize size = tiles_.size();
+    const LatticeSize size = passages_.size();
     if (col < -1 || row < -1 || col >= size.cols || row >= size.rows) return farthest;
     const Vec2 corner{static_cast<double>(col) + 1.5, static_cast<double>(row) + 1.5};  // upper right
     double least = farthest;
-    if (row >= 0 && tiles_.has_right_wall(col, row)) least = distance(place, {{corner.x, corner.y - 1.0}, corner});
-    if (col < 0 || !tiles_.has_upper_wall(col, row)) return least;
+    if (row >= 0 && has_right_wall(col, row)) least = distance(place, {{corner.x, corner.y - 1.0}, corner});
+    if (col < 0 || !has_upper_wall(col, row)) return least;
     return std::min(least, distance(place, {{corner.x - 1.0, corner.y}, corner}));
   }
 
-  const MazeTiles& tiles_;
+  LatticePassages passages_;
+  MazeOutline outline_;
+  CellsOnTiles cells_;
+  ShadePyramid far_;
 };
-
-std::unique_ptr<PlaceDistances> MazeTiles::distances(const Execution&) const {
-  return std::make_unique<MazeDistances>(*this);
-}
 
 // Tiles of maps: a pixel takes the shade of the cell in its middle, from afar that of the pyramid's square there. Maps
 // may be turned, so each row of pixels is a line through the cells.
 
 constexpr std::uint8_t blocked_shade = 255;
 constexpr std::uint8_t unknown_shade = 80;
-
-/// Of a cell's middle, from the squares of blocked cells and of those around the map; four bytes a cell.
-class MapDistances : public PlaceDistances {
- public:
-  MapDistances(const OccupancyMap& map, const Execution& execution)
-      : map_(map), field_(map.blocked, CellDistance::squares, true, execution) {}
-
-  double at(Vec2 place) const override {
-    const std::optional<Cell> cell = cell_at(map_, place);
-    if (!cell || map_.blocked.test(cell->x, cell->y)) return std::numeric_limits<double>::quiet_NaN();
-    return map_.cell * field_.distance(cell->x, cell->y);
-  }
-
- private:
-  const OccupancyMap& map_;
-  DistanceField field_;
-};
 
 class MapTiles : public WorldTiles {
  public:
@@ -224,11 +196,16 @@ class MapTiles : public WorldTiles {
         tile.at(x, y) = shade_at(first + static_cast<double>(x) * right + static_cast<double>(y) * down, level);
       }
     }
-    return png_of_shades(tile, colors::wall, execution);
+    return png_of_shades(std::move(tile), colors::wall, execution);
   }
 
-  std::unique_ptr<PlaceDistances> distances(const Execution& execution) const override {
-    return std::make_unique<MapDistances>(map_, execution);
+  /// Of a cell's middle, from the squares of blocked cells and of those around the map; four bytes a cell.
+  PlaceDistances distances(const Execution& execution) const override {
+    return {[this, field = DistanceField(map_.blocked, CellDistance::squares, true, execution)](Vec2 place) {
+      const std::optional<Cell> cell = cell_at(map_, place);
+      if (!cell || map_.blocked.test(cell->x, cell->y)) return std::numeric_limits<double>::quiet_NaN();
+      return map_.cell * field.distance(cell->x, cell->y);
+    }};
   }
 
  private:
@@ -258,11 +235,21 @@ class MapTiles : public WorldTiles {
 
 constexpr double wall_pixels = 2.0;
 constexpr double outline_pixels = 1.0;
-constexpr std::size_t shapes_a_poll = std::size_t{1} << 12U;
 
 std::size_t shape_count(const Scene& scene) { return scene.walls.size() + scene.polygons.size(); }
 
 BoxOf<2> as_item(const Box& box) { return {{box.min.x, box.min.y}, {box.max.x, box.max.y}}; }
+
+/// Of so many items: box(i) is that of the i-th.
+template <class BoxOfItem>
+std::vector<BoxOf<2>> boxes_of(std::size_t count, const BoxOfItem& box, const Execution& execution) {
+  std::vector<BoxOf<2>> boxes;
+  for (std::size_t i = 0; i < count; ++i) {
+    execution.poll(i);
+    boxes.push_back(as_item(box(i)));
+  }
+  return boxes;
+}
 
 std::vector<BoxOf<2>> boxes_of(const Scene& scene, const Execution& execution) {
   if (shape_count(scene) > most_shapes) {
@@ -270,14 +257,11 @@ std::vector<BoxOf<2>> boxes_of(const Scene& scene, const Execution& execution) {
                                  shape_count(scene), most_shapes));
   }
   execution.reserve(2 * shape_count(scene) * sizeof(BoxOf<2>) + shape_count(scene) * 64);
-  std::vector<BoxOf<2>> boxes;
-  const auto add = [&](const Box& box) {
-    if (boxes.size() % shapes_a_poll == 0) execution.check();
-    boxes.push_back(as_item(box));
+  const std::size_t walls = scene.walls.size();
+  const auto box = [&](std::size_t i) {
+    return i < walls ? box_of(scene.walls.segment(i)) : box_around(scene.polygons[i - walls].corners);
   };
-  for (std::size_t i = 0; i < scene.walls.size(); ++i) add(box_of(scene.walls.segment(i)));
-  for (const ScenePolygon& polygon : scene.polygons) add(box_around(polygon.corners));
-  return boxes;
+  return boxes_of(shape_count(scene), box, execution);
 }
 
 Box box_of_world(const Scene& scene, const Execution& execution) {
@@ -314,7 +298,7 @@ std::vector<Segment> sides_of(const Scene& scene, const SeamSides& seams, const 
   execution.reserve(count * (sizeof(Segment) + 3 * sizeof(BoxOf<2>)));
   std::vector<Segment> sides = bounds_walls(scene);
   for (std::size_t i = 0; i < scene.walls.size(); ++i) {
-    if (i % shapes_a_poll == 0) execution.check();
+    execution.poll(i);
     sides.push_back(scene.walls.segment(i));
   }
   for (const ScenePolygon& polygon : scene.polygons) {
@@ -322,15 +306,6 @@ std::vector<Segment> sides_of(const Scene& scene, const SeamSides& seams, const 
     seams.for_each_other_side(polygon, [&](Vec2 a, Vec2 b) { sides.push_back({a, b}); });
   }
   return sides;
-}
-
-std::vector<BoxOf<2>> boxes_of(const std::vector<Segment>& sides, const Execution& execution) {
-  std::vector<BoxOf<2>> boxes;
-  for (const Segment& edge : sides) {
-    if (boxes.size() % shapes_a_poll == 0) execution.check();
-    boxes.push_back(as_item(box_of(edge)));
-  }
-  return boxes;
 }
 
 PolygonSet outline_on(const OnTile& tile, const ScenePolygon& polygon) {
@@ -378,10 +353,35 @@ class ShapeTiles : public WorldTiles {
     write_png_file(image, 0.0, execution, [&](std::string_view piece) { bytes += piece; });
     return bytes;
   }
-  std::unique_ptr<PlaceDistances> distances(const Execution& execution) const override;
+  /// By a tree of sides; 132 bytes a side.
+  PlaceDistances distances(const Execution& execution) const override {
+    std::vector<Segment> lines = sides_of(scene_, seams_, execution);
+    const auto box_of_line = [&](std::size_t i) { return box_of(lines[i]); };
+    BoxTree<2> boxes(boxes_of(lines.size(), box_of_line, execution), execution);
+    const Box room = scene_.bounds ? *scene_.bounds : box_of_world(scene_, execution);
+    auto at = [sides = std::move(lines), tree = std::move(boxes)](Vec2 place) {
+      double least = std::numeric_limits<double>::infinity();
+      tree.search({{place.x, place.y}, {place.x, place.y}}, least,
+                  [&](std::uint32_t i) { return least = std::min(least, distance(place, sides[tree.order()[i]])); });
+      return least;
+    };
+    const auto leave_out_here = [this, room](PixelTile& tile, const Box& box, double pixel, const Execution& asked) {
+      leave_out(room, tile, box, pixel, asked);
+    };
+    return {std::move(at), true, leave_out_here};
+  }
 
-  const Scene& scene() const { return scene_; }
-  const SeamSides& seams() const { return seams_; }
+ private:
+  /// What lies inside of polygons or outside of the room.
+  void leave_out(const Box& room, PixelTile& tile, const Box& box, double pixel, const Execution& execution) const {
+    const Mask inside = insides(box, pixel, execution);
+    for (std::size_t i = 0; i < tile.bytes.size(); ++i) {
+      const Vec2 middle{static_cast<double>(i % TileGrid::pixels) + 0.5,
+                        static_cast<double>(i / TileGrid::pixels) + 0.5};
+      const bool is_outside = !room.contains({box.min.x + middle.x * pixel, box.max.y - middle.y * pixel});
+      if (is_outside || inside.pixels()[i] >= 128) tile.bytes[i] = 0;
+    }
+  }
   /// How much of each pixel lies inside of polygons. Throws Stopped.
   Mask insides(const Box& box, double pixel, const Execution& execution) const {
     Mask mask(TileGrid::pixels, TileGrid::pixels, execution);
@@ -391,13 +391,11 @@ class ShapeTiles : public WorldTiles {
     }
     return mask;
   }
-
- private:
   /// Walls and then polygons, each in the order of the world.
   std::vector<std::uint32_t> shapes_in(const Box& box, const Execution& execution) const {
     std::vector<std::uint32_t> shapes;
     tree_.search(as_item(box), 0.0, [&](std::uint32_t place) {
-      if (shapes.size() % shapes_a_poll == 0) execution.check();
+      execution.poll(shapes.size());
       shapes.push_back(tree_.order()[place]);
       return 0.0;
     });
@@ -410,44 +408,89 @@ class ShapeTiles : public WorldTiles {
   SeamSides seams_;
 };
 
-/// By a tree of sides; 132 bytes a side.
-class ShapeDistances : public PlaceDistances {
- public:
-  ShapeDistances(const ShapeTiles& tiles, const Execution& execution)
-      : tiles_(tiles),
-        sides_(sides_of(tiles.scene(), tiles.seams(), execution)),
-        tree_(boxes_of(sides_, execution), execution),
-        room_(tiles.scene().bounds ? *tiles.scene().bounds : box_of_world(tiles.scene(), execution)) {}
+constexpr std::size_t row_pixels = TileGrid::pixels;
+constexpr std::size_t stride = 4;  // pixels, of places between which a distance is told by theirs
+constexpr std::size_t rows_a_chunk = 16;
 
-  double at(Vec2 place) const override {
-    double least = std::numeric_limits<double>::infinity();
-    tree_.search({{place.x, place.y}, {place.x, place.y}}, least,
-                 [&](std::uint32_t i) { return least = std::min(least, distance(place, sides_[tree_.order()[i]])); });
-    return least;
-  }
-  bool are_dear() const override { return true; }
-  void leave_out(PixelTile& tile, const Box& box, double pixel, const Execution& execution) const override {
-    const Mask inside = tiles_.insides(box, pixel, execution);
-    for (std::size_t i = 0; i < tile.bytes.size(); ++i) {
-      const Vec2 middle{static_cast<double>(i % TileGrid::pixels) + 0.5,
-                        static_cast<double>(i / TileGrid::pixels) + 0.5};
-      const bool is_outside = !room_.contains({box.min.x + middle.x * pixel, box.max.y - middle.y * pixel});
-      if (is_outside || inside.pixels()[i] >= 128) tile.bytes[i] = 0;
+/// For the distances at the middles of squares into which the box is cut, but those that are no number.
+Steps steps_of(const PlaceDistances& distances, const Box& box, const Execution& execution) {
+  constexpr std::size_t squares = 61;  // of a side: no divisor of what worlds are made of
+  std::vector<double> found(squares * squares);
+  for_chunks(squares, 1, execution, [&](Range rows) {
+    for (std::size_t i = rows.first * squares; i < rows.last * squares; ++i) {
+      const double x = (static_cast<double>(i % squares) + 0.5) / squares;
+      const double y = (static_cast<double>(i / squares) + 0.5) / squares;
+      found[i] = distances.at({box.min.x + x * box.width(), box.min.y + y * box.height()});
     }
-  }
-
- private:
-  const ShapeTiles& tiles_;
-  std::vector<Segment> sides_;
-  BoxTree<2> tree_;
-  Box room_;
-};
-
-std::unique_ptr<PlaceDistances> ShapeTiles::distances(const Execution& execution) const {
-  return std::make_unique<ShapeDistances>(*this, execution);
+  });
+  std::erase_if(found, [](double d) { return !std::isfinite(d); });
+  if (found.empty()) return {};
+  std::sort(found.begin(), found.end());
+  return Steps::up_to(found[found.size() - 1 - found.size() / 20], found.back());
 }
 
 }  // namespace
+
+ClearanceLayer::ClearanceLayer(const WorldTiles& tiles, const Box& box, double needed, const Execution& execution)
+    : tiles_(tiles),
+      distances_(tiles.distances(execution)),
+      needed_(needed),
+      steps_(steps_of(distances_, box, execution)) {}
+
+/// 0 for what is no number.
+std::uint8_t ClearanceLayer::ink_of(double distance) const {
+  if (!(distance >= 0.0)) return 0;
+  if (distance < needed_) return static_cast<std::uint8_t>(step_inks.size() + 1);
+  return static_cast<std::uint8_t>(steps_.of(distance) + 1);
+}
+
+std::string ClearanceLayer::draw(const TilePlace& place, const Execution& execution) const {
+  PixelTile tile;
+  const Box box = tiles_.grid().box_of(place);
+  const double pixel = tiles_.grid().pixel(place.zoom);
+  if (pixel <= tiles_.largest_pixel_of_distances()) {
+    if (distances_.are_dear) {
+      draw_between(tile, box, pixel, execution);
+    } else {
+      draw_each(tile, box, pixel, execution);
+    }
+    if (distances_.leave_out) distances_.leave_out(tile, box, pixel, execution);
+  }
+  return png_of_inks(tile, step_inks_and(too_near_ink), std::array{step_opacity}, execution);
+}
+
+void ClearanceLayer::draw_each(PixelTile& tile, const Box& box, double pixel, const Execution& execution) const {
+  for_chunks(row_pixels, rows_a_chunk, execution, [&](Range rows) {
+    for (std::size_t y = rows.first; y < rows.last; ++y) {
+      for (std::size_t x = 0; x < row_pixels; ++x) {
+        const Vec2 middle{static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5};
+        tile.at(x, y) = ink_of(distances_.at({box.min.x + middle.x * pixel, box.max.y - middle.y * pixel}));
+      }
+    }
+  });
+}
+
+/// Distances change by no more than the way, so between places they are off by less than that between these.
+void ClearanceLayer::draw_between(PixelTile& tile, const Box& box, double pixel, const Execution& execution) const {
+  constexpr std::size_t places = row_pixels / stride + 1;  // of a row, both ends included
+  std::vector<double> found(places * places);
+  const double way = static_cast<double>(stride) * pixel;
+  for_chunks(places, 1, execution, [&](Range rows) {
+    for (std::size_t i = rows.first * places; i < rows.last * places; ++i) {
+      found[i] = distances_.at(
+          {box.min.x + static_cast<double>(i % places) * way, box.max.y - static_cast<double>(i / places) * way});
+    }
+  });
+  const auto mixed = [](double a, double b, double share) { return a + share * (b - a); };
+  for (std::size_t y = 0; y < row_pixels; ++y) {
+    const double down = (static_cast<double>(y % stride) + 0.5) / stride;
+    for (std::size_t x = 0; x < row_pixels; ++x) {
+      const double right = (static_cast<double>(x % stride) + 0.5) / stride;
+      const double* at = &found[y / stride * places + x / stride];
+      tile.at(x, y) = ink_of(mixed(mixed(at[0], at[1], right), mixed(at[places], at[places + 1], right), down));
+    }
+  }
+}
 
 MazeOutline MazeOutline::of_course(LatticeSize size) {
   MazeOutline outline{std::vector<bool>(size.rows, true), std::vector<bool>(size.rows, true),
@@ -460,7 +503,6 @@ MazeOutline MazeOutline::of_course(LatticeSize size) {
 MazeOutline MazeOutline::of_walls(const WallSet& walls, LatticeSize size, const Execution& execution) {
   MazeOutline outline{std::vector<bool>(size.rows), std::vector<bool>(size.rows), std::vector<bool>(size.cols),
                       std::vector<bool>(size.cols)};
-  constexpr std::size_t walls_a_poll = std::size_t{1} << 20U;
   const Box around{{0.5, 0.5}, {size.cols + 0.5, size.rows + 0.5}};
   const auto mark = [](std::vector<bool>& side, double from, double to) {
     for (double at = from + 0.5; at < to; at += 1.0) {
@@ -470,7 +512,7 @@ MazeOutline MazeOutline::of_walls(const WallSet& walls, LatticeSize size, const 
   };
   walls.visit([&](auto all) {
     for (std::size_t i = 0; i < all.size(); ++i) {
-      if (i % walls_a_poll == 0) execution.check();
+      execution.poll(i);
       const Segment s = all[i].segment();
       const BoxSide side = side_under(s, around);
       const Box box = box_of(s);

@@ -2,6 +2,7 @@
 // A world as tiles of any zoom, each drawn when it is asked for: mazes, maps, and what has walls and shapes.
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <memory>
 #include <string>
@@ -14,37 +15,58 @@
 
 namespace warren::serve {
 
-/// How far places of a world are from the nearest obstacle. Immutable; any number of threads may ask.
-class PlaceDistances {
- public:
-  virtual ~PlaceDistances() = default;
-
+/// How far places of a world are from the nearest obstacle. Any number of threads may ask.
+struct PlaceDistances {
   /// No number inside of cells that are blocked and outside of mazes and maps.
-  virtual double at(Vec2 place) const = 0;
-  /// Is one a pixel too many?
-  virtual bool are_dear() const { return false; }
-  /// Takes out what lies inside of shapes or outside of the world, where at() doesn't. Throws Stopped.
-  virtual void leave_out(PixelTile&, const Box&, double /*pixel*/, const Execution&) const {}
+  std::function<double(Vec2)> at;
+  bool are_dear = false;  ///< is one a pixel too many?
+  /// Takes out what lies inside of shapes or outside of the world; none: at() does. Throws Stopped.
+  std::function<void(PixelTile&, const Box&, double pixel, const Execution&)> leave_out = {};
 };
 
 /// Immutable; any number of threads may draw.
-class WorldTiles {
+class WorldTiles : NotCopied {
  public:
   explicit WorldTiles(const TileGrid& grid) : grid_(grid) {}
   virtual ~WorldTiles() = default;
-  WorldTiles(const WorldTiles&) = delete;
-  WorldTiles& operator=(const WorldTiles&) = delete;
 
   const TileGrid& grid() const { return grid_; }
   /// A PNG. The tile is one of the grid. Throws Stopped.
   virtual std::string draw(const TilePlace& tile, const Execution& execution) const = 0;
   /// Refers to what the tiles refer to, and to them. Throws Stopped.
-  virtual std::unique_ptr<PlaceDistances> distances(const Execution& execution) const = 0;
+  virtual PlaceDistances distances(const Execution& execution) const = 0;
   /// Tiles whose pixels are larger don't show them.
   virtual double largest_pixel_of_distances() const { return std::numeric_limits<double>::infinity(); }
 
  private:
   TileGrid grid_;
+};
+
+/// Where the body does not fit.
+inline constexpr Rgb too_near_ink{200, 16, 46};
+
+/// How far the places of a world are from the nearest obstacle, as tiles above it: a scale of round steps that fits the
+/// world, and one ink more where a body of a radius does not fit. Immutable; any number of threads may draw.
+class ClearanceLayer {
+ public:
+  /// Refers to the tiles. box: of the world, by some thousand places of which the scale is made. needed: distance that
+  /// a body's middle must have, 0 for none. Throws Stopped.
+  ClearanceLayer(const WorldTiles& tiles, const Box& box, double needed, const Execution& execution);
+
+  /// A PNG. Throws Stopped.
+  std::string draw(const TilePlace& place, const Execution& execution) const;
+  const Steps& steps() const { return steps_; }
+  double needed() const { return needed_; }
+
+ private:
+  std::uint8_t ink_of(double distance) const;
+  void draw_each(PixelTile& tile, const Box& box, double pixel, const Execution& execution) const;
+  void draw_between(PixelTile& tile, const Box& box, double pixel, const Execution& execution) const;
+
+  const WorldTiles& tiles_;
+  PlaceDistances distances_;
+  double needed_;
+  Steps steps_;
 };
 
 /// The walls around a maze, unit by unit: of each row the left and the right one, of each column the lower and the

@@ -198,7 +198,7 @@ TEST(OmplLog, ReadsBackAsOmplsScriptReadsIt) {
 }
 
 TEST(TextTable, ColumnsAreAsWideAsTheirWidestCellAndEmptyOnesGo) {
-  const TextTable table{{"name", "nothing", "n"}, 1, {{"a", "", "1"}, {"longer", "", "100"}}};
+  const TextTable table{{"name", "nothing", "n"}, 1, "", {{"a", "", "1"}, {"longer", "", "100"}}};
   EXPECT_EQ(table.text(Palette(false)), "name      n\na         1\nlonger  100\n");
 }
 

@@ -56,8 +56,8 @@ double distance_to_axis(const MedialAxis& axis, Vec2 p) {
 }
 
 TEST(AxisCurve, ArcBetweenPointAndLineIsTheParabola) {
-  const AxisSite point{{0, 2}, {0, 2}};
-  const AxisSite line{{-10, 0}, {10, 0}};
+  const Segment point{{0, 2}, {0, 2}};
+  const Segment line{{-10, 0}, {10, 0}};
   const auto on = [](double x) { return Vec2{x, (x * x + 4.0) / 4.0}; };
   const AxisCurve arc(point, line, on(-3.0), on(5.0));
   double sampled = 0.0;
@@ -91,7 +91,7 @@ TEST(MedialAxis, OfASquareIsItsDiagonals) {
     const Vec2 middle = axis.curve(e).at(0.5 * (axis.curve(e).first() + axis.curve(e).last()));
     EXPECT_NEAR(std::min(std::abs(middle.x - middle.y), std::abs(middle.x + middle.y - 4.0)), 0.0, 1e-9);
   }
-  EXPECT_EQ(axis.snap_error(), 0.0);
+  EXPECT_EQ(snap_segments(axis.obstacles(), {}).error, 0.0);
 }
 
 TEST(MedialAxis, OfACorridorIsItsMiddleAndTheCornersBisectors) {
@@ -173,9 +173,7 @@ TEST(MedialAxis, SplitsWhatEndsOnCrossesOrCoversEachOther) {
     };
     for (int i = 0; i < 30; ++i) segments.push_back({any(), any()});
     const SnappedSegments snapped = snap_segments(segments, {});
-    const auto segment = [](const SnappedSegment& s) {
-      return Segment{{1.0 * s.x1, 1.0 * s.y1}, {1.0 * s.x2, 1.0 * s.y2}};
-    };
+    const auto segment = [](const IntegerPiece& s) { return Segment{s.a, s.b}; };
     for (std::size_t i = 0; i < snapped.segments.size(); ++i) {
       const Segment s = segment(snapped.segments[i]);
       for (const Vec2 p : {s.a, s.b}) {  // not far from where it comes from

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The hierarchy of a graph answers as a search of the graph does.
-#include "planners/graph/contraction.hpp"
+#include "planners/graph/hierarchy.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,6 @@
 #include "core/base/error.hpp"
 #include "core/search/search.hpp"
 #include "core/search/search_queues.hpp"
-#include "planners/graph/hierarchy.hpp"
 #include "tests/refusals.hpp"
 
 namespace warren {

@@ -143,7 +143,7 @@ TEST(WallPartition, NeitherFormNorBandsChangeWhatATileHolds) {
     for (const WallSet& walls : sets) {
       for (const TileBands bands : {TileBands{1, false}, {2, false}, {3, true}, {7, false}, {8, true}, {11, false}}) {
         SCOPED_TRACE(testing::Message() << bands.count << (bands.by_rows ? " of rows" : " of columns"));
-        WallPartition found(walls, {}, grid, 1.11, {}, [&](const WallCounts&) { return bands; });
+        WallPartition found(walls, {}, grid, 1.11, {}, bands);
         EXPECT_EQ(found.box().min, expected.box().min);
         EXPECT_EQ(found.box().max, expected.box().max);
         std::size_t tiles = 0;

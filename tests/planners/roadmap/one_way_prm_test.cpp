@@ -8,7 +8,7 @@
 #include "planners/shorten/shortcut.hpp"
 #include "solve/kinds/planned_worlds.hpp"
 #include "tests/worlds/poses/body_scenes.hpp"
-#include "verify/judges/verify_car.hpp"
+#include "verify/judges/verify_turning.hpp"
 #include "worlds/poses/car_world.hpp"
 
 namespace warren {

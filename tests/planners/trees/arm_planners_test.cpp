@@ -13,7 +13,6 @@
 #include "tests/seeds.hpp"
 #include "verify/judges/verify_arm.hpp"
 #include "worlds/arms/arm_world.hpp"
-#include "worlds/arms/chain_model.hpp"
 #include "worlds/arms/puma560.hpp"
 
 namespace warren {

@@ -10,6 +10,7 @@
 
 #include "bench/plain_graph.hpp"
 #include "core/plane/geometry.hpp"
+#include "planners/graph/assemble_graph.hpp"
 #include "scenes/files/read_world_io.hpp"
 #include "tests/paths.hpp"
 #include "tests/planners/visibility/plane_worlds.hpp"
@@ -66,7 +67,13 @@ bool contains(const CellDecomposition& cells, const VerticalCell& cell, Vec2 p) 
   return left <= p.x && p.x <= right && cells.side(cell.lower, p) >= 0 && cells.side(cell.upper, p) <= 0;
 }
 
-double area(const std::array<Vec2, 4>& c) { return 0.5 * (c[1].x - c[0].x) * ((c[3].y - c[0].y) + (c[2].y - c[1].y)); }
+/// Rounded.
+double area(const CellDecomposition& cells, const VerticalCell& cell) {
+  const double left = cell.left == no_number ? cells.box.min.x : cells.corners[cell.left].x;
+  const double right = cell.right == no_number ? cells.box.max.x : cells.corners[cell.right].x;
+  const auto width_at = [&](double x) { return cells.height(cell.upper, x) - cells.height(cell.lower, x); };
+  return 0.5 * (right - left) * (width_at(left) + width_at(right));
+}
 
 double free_area(const PlaneObstacles& obstacles) {
   double sum = obstacles.bounds->width() * obstacles.bounds->height();
@@ -110,9 +117,9 @@ TEST(CellDecomposition, CellsTileTheFreePlane) {
     const PlaneObstacles obstacles = disjoint_polygons(seed);
     const CellDecomposition cells = decompose(obstacles, {}, {});
     double sum = 0.0;
-    for (std::uint32_t c = 0; c < cells.cells.size(); ++c) {
-      EXPECT_GE(area(cells.outline(c)), 0.0);
-      sum += area(cells.outline(c));
+    for (const VerticalCell& cell : cells.cells) {
+      EXPECT_GE(area(cells, cell), 0.0);
+      sum += area(cells, cell);
     }
     EXPECT_NEAR(sum, free_area(obstacles), 1e-9 * sum);
   }
@@ -171,7 +178,11 @@ TEST(CellDecomposition, JoinsTheSquaresOfAGridExactlyWhereAFloodDoes) {
       for (int x = 0; x < world.side(); ++x) centers.push_back({x + 0.5, y + 0.5});
     }
     const CellDecomposition cells = decompose(world.obstacles(), centers, {});
-    const Components parts = bench::plain_components(cells.graph(0, {}, {}));
+    std::vector<Edge> open;
+    for (const Door& door : cells.doors) {
+      if (!door.shut) open.push_back({door.left, door.right});
+    }
+    const Components parts = bench::plain_components(assemble_graph(cells.cells.size(), open, {}));
     const std::vector<int> regions = world.regions();
     for (std::size_t i = 0; i < centers.size(); ++i) {
       const bool full = world.is_full(static_cast<int>(i) % world.side(), static_cast<int>(i) / world.side());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scenes/arms/dh_table_io.hpp"
+#include "scenes/arms/arm_files_io.hpp"
 
 #include <gtest/gtest.h>
 

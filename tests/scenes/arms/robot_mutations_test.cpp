@@ -13,8 +13,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/rng.hpp"
-#include "scenes/arms/mesh_io.hpp"
-#include "scenes/arms/urdf_io.hpp"
+#include "scenes/arms/arm_files_io.hpp"
 #include "scenes/scene/convex_hull.hpp"
 #include "tests/scenes/arms/test_meshes.hpp"
 #include "tests/scenes/files/temporary_directory.hpp"

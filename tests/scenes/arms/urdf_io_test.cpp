@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Robots of a few links, whose frames are worked out here by Eigen's own rotations.
-#include "scenes/arms/urdf_io.hpp"
+#include "scenes/arms/arm_files_io.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -7,10 +7,8 @@
 
 #include "core/base/error.hpp"
 #include "core/plane/polygon.hpp"
-#include "scenes/files/geojson_io.hpp"
+#include "scenes/files/plane_formats_io.hpp"
 #include "scenes/files/read_world_io.hpp"
-#include "scenes/files/ring_lists_io.hpp"
-#include "scenes/files/wkt_io.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "scenes/scene/polygon_generator.hpp"
 #include "tests/scenes/files/temporary_directory.hpp"

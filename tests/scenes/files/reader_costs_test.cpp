@@ -11,16 +11,12 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "scenes/arms/dh_table_io.hpp"
-#include "scenes/files/geojson_io.hpp"
+#include "scenes/arms/arm_files_io.hpp"
 #include "scenes/files/image_io.hpp"
-#include "scenes/files/micromouse_io.hpp"
-#include "scenes/files/moving_ai_io.hpp"
 #include "scenes/files/npy_io.hpp"
-#include "scenes/files/ring_lists_io.hpp"
+#include "scenes/files/plane_formats_io.hpp"
 #include "scenes/files/ros_map_io.hpp"
 #include "scenes/files/scene_io.hpp"
-#include "scenes/files/wkt_io.hpp"
 #include "tests/memory_limit.hpp"
 #include "tests/scenes/files/test_images.hpp"
 #include "tests/seeds.hpp"

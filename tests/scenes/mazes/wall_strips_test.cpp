@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The oracle holds the maze: maze_walls() of the same cells as floats, byte for byte, however wide the strips are.
-#include "scenes/mazes/maze_walls.hpp"
+#include "scenes/mazes/maze_generator.hpp"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "scenes/mazes/maze_generator.hpp"
 #include "tests/scenes/mazes/mazes.hpp"
 
 namespace warren {

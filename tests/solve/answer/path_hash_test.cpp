@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solve/answer/path_hash.hpp"
+#include "solve/answer/write_answer_io.hpp"
 
 #include <gtest/gtest.h>
 

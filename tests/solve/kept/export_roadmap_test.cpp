@@ -13,6 +13,7 @@
 #include "core/base/error.hpp"
 #include "core/base/rng.hpp"
 #include "scenes/files/npy_io.hpp"
+#include "solve/kept/roadmap_formats_io.hpp"
 #include "tests/refusals.hpp"
 #include "tests/scenes/files/temporary_directory.hpp"
 #include "tests/seeds.hpp"
@@ -318,7 +319,7 @@ TEST(ExportRoadmap, RowsOfTheMatrixBeginWhereTheirFirstFreeEdgeStands) {
     rows.push_back(static_cast<std::int32_t>(targets.size()));
   }
   const std::string archive = exported(roadmap, ".npz").text;
-  ASSERT_GT(parts.to.size(), 4 * ExportedEdgesView::grain);
+  ASSERT_GT(parts.to.size(), 4 * edge_ends_a_block);
   EXPECT_TRUE(holds(archive, "indptr", "<i4", {rows.size()}, bytes_of(rows)));
   EXPECT_TRUE(holds(archive, "indices", "<i4", {targets.size()}, bytes_of(targets)));
 }

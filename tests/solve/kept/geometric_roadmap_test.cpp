@@ -18,7 +18,6 @@
 #include "tests/paths.hpp"
 #include "tests/seeds.hpp"
 #include "tests/solve/kept/same_answers.hpp"
-#include "verify/judges/verify_map.hpp"
 #include "verify/judges/verify_point.hpp"
 
 namespace warren {

@@ -54,9 +54,9 @@ class HierarchyFile : public testing::Test {
 TEST_F(HierarchyFile, IsReadAsItWasWritten) {
   const Hierarchy read = read_back(Arrays{});
   EXPECT_EQ(read.arcs, (RawVector<HierarchyArc>{{2, 1, 3.0}, {0, no_vertex, 1.0}, {2, no_vertex, 2.0}}));
-  const HierarchySections sections(read, {});
+  HeldNumbers held;
   std::vector<RoadmapSection> again;
-  sections.append_to(again);
+  append_hierarchy_sections(read, held, again, {});
   const Hierarchy twice = read_back(again);
   EXPECT_EQ(twice.first, read.first);
   EXPECT_EQ(twice.arcs, read.arcs);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Passages of mazes' own walls, without a look at distances: bit for bit those of the lattice planner.
-#include "solve/kept/maze_bits.hpp"
+#include "solve/kept/lattice_roadmap.hpp"
 
 #include <gtest/gtest.h>
 

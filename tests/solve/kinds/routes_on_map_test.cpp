@@ -14,7 +14,7 @@
 #include "tests/seeds.hpp"
 #include "tests/solve/test_scenes.hpp"
 #include "verify/judges/verify_classes.hpp"
-#include "verify/judges/verify_map.hpp"
+#include "verify/judges/verify_point.hpp"
 
 namespace warren {
 namespace {

@@ -10,8 +10,7 @@
 #include "core/base/rng.hpp"
 #include "core/plane/se2.hpp"
 #include "tests/seeds.hpp"
-#include "worlds/poses/dubins_curve.hpp"
-#include "worlds/poses/reeds_shepp_curve.hpp"
+#include "worlds/poses/steering_curve.hpp"
 
 namespace warren {
 namespace {

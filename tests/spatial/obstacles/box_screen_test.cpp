@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "spatial/obstacles/wall_grid.hpp"
+#include "spatial/obstacles/wall_index.hpp"
 
 #include <gtest/gtest.h>
 

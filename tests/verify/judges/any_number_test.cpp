@@ -22,12 +22,9 @@
 #include "tests/verify/judges/bounding_judge.hpp"
 #include "tests/worlds/arms/arm_oracle.hpp"
 #include "verify/judges/verify_arm.hpp"
-#include "verify/judges/verify_car.hpp"
-#include "verify/judges/verify_map.hpp"
 #include "verify/judges/verify_point.hpp"
 #include "verify/judges/verify_turning.hpp"
 #include "verify/near/obstacle_index.hpp"
-#include "worlds/arms/chain_model.hpp"
 #include "worlds/arms/puma560.hpp"
 
 namespace warren::any_number {

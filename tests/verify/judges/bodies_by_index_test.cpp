@@ -9,7 +9,6 @@
 #include "core/base/rng.hpp"
 #include "tests/seeds.hpp"
 #include "tests/verify/judges/same_verdicts.hpp"
-#include "verify/judges/verify_car.hpp"
 #include "verify/judges/verify_turning.hpp"
 #include "verify/near/obstacle_index.hpp"
 

@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "verify/judges/verify_car.hpp"
-#include "verify/judges/verify_map.hpp"
 #include "verify/judges/verify_point.hpp"
 #include "verify/judges/verify_turning.hpp"
 

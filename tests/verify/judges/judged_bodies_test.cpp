@@ -10,7 +10,6 @@
 #include "tests/seeds.hpp"
 #include "tests/worlds/poses/body_oracle.hpp"
 #include "tests/worlds/poses/body_scenes.hpp"
-#include "verify/judges/verify_car.hpp"
 #include "verify/judges/verify_turning.hpp"
 
 namespace warren {

@@ -8,10 +8,8 @@
 
 #include "core/base/error.hpp"
 #include "verify/judges/verify_arm.hpp"
-#include "verify/judges/verify_car.hpp"
 #include "verify/judges/verify_point.hpp"
 #include "verify/judges/verify_turning.hpp"
-#include "worlds/arms/chain_model.hpp"
 #include "worlds/arms/puma560.hpp"
 #include "worlds/rasters/lattice_polygons.hpp"
 

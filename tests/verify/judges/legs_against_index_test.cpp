@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A verdict by the index is that by the pass over all obstacles, bit for bit: in scenes made of ties and degenerations,
 // for paths of which most are refuted.
-#include "verify/judges/legs_against_obstacles.hpp"
+#include "verify/judges/leg_reports.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,6 @@
 #include "tests/seeds.hpp"
 #include "tests/worlds/arms/arm_oracle.hpp"
 #include "worlds/arms/arm_world.hpp"
-#include "worlds/arms/chain_model.hpp"
 #include "worlds/arms/puma560.hpp"
 
 namespace warren {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "verify/judges/verify_body_price.hpp"
+#include "verify/judges/verify_price.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "verify/judges/verify_car.hpp"
+#include "verify/judges/verify_turning.hpp"
 
 #include <gtest/gtest.h>
 

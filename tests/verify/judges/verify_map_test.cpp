@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "verify/judges/verify_map.hpp"
+#include "verify/judges/verify_point.hpp"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@
 #include "tests/seeds.hpp"
 #include "tests/worlds/prices/priced_maps.hpp"
 #include "verify/judges/effective_scene.hpp"
-#include "verify/judges/verify_map.hpp"
+#include "verify/judges/verify_point.hpp"
 #include "worlds/prices/effective_map.hpp"
 
 namespace warren {

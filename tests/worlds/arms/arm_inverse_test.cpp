@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/arms/arm_inverse.hpp"
+#include "worlds/arms/arm_kinematics.hpp"
 
 #include <gtest/gtest.h>
 

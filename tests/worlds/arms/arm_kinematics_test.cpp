@@ -16,7 +16,8 @@ using random_arm::Draw;
 
 /// A point of a core that is fixed in its link's frame: an end of a random direction.
 Vec3 core_point(const ArmLink& link, Draw& draw) {
-  return ConvexBody(link.solids[draw.below(link.solids.size())]).core_support(draw.vector());
+  std::size_t near = 0;
+  return ConvexBody(link.solids[draw.below(link.solids.size())]).core_support(draw.vector(), near);
 }
 
 Vec3 place_of(const ArmModel& model, const JointState& q, int frame, const Vec3& point) {

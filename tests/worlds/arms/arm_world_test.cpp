@@ -11,7 +11,6 @@
 #include "scenes/files/read_world_io.hpp"
 #include "tests/seeds.hpp"
 #include "tests/worlds/arms/arm_oracle.hpp"
-#include "worlds/arms/chain_model.hpp"
 #include "worlds/arms/puma560.hpp"
 
 namespace warren {

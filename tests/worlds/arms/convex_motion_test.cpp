@@ -125,7 +125,8 @@ TEST(ConvexMotion, ThePlaneTellsTheDistance) {
     ++apart;
     const auto farthest = [](const PosedSolid& of, const Vec3& direction) {
       const ConvexBody body(of.solid);
-      return direction.dot(of.pose * body.core_support(of.pose.linear().transpose() * direction)) + body.margin();
+      std::size_t near = 0;
+      return direction.dot(of.pose * body.core_support(of.pose.linear().transpose() * direction, near)) + body.margin();
     };
     EXPECT_NEAR(-farthest(b, -found.direction) - farthest(a, found.direction), found.below, 1e-11);
   }
@@ -285,7 +286,8 @@ TEST(ConvexMotion, OfALargeHullTheFarthestCornerIsFound) {
     const Vec3 direction = draw.vector();
     double most = -1e9;
     for (const Vec3& corner : hull.corners) most = std::max(most, direction.dot(hull.pose * corner));
-    EXPECT_NEAR(direction.dot(body.core_support(direction)), most, 1e-14);
+    std::size_t near = 0;
+    EXPECT_NEAR(direction.dot(body.core_support(direction, near)), most, 1e-14);
     EXPECT_LE(most, direction.dot(body.centre()) + direction.norm() * body.radius());
   }
 }

@@ -8,7 +8,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/rng.hpp"
-#include "verify/judges/verify_map.hpp"
+#include "verify/judges/verify_point.hpp"
 
 namespace warren {
 namespace {

@@ -12,7 +12,7 @@
 #include "scenes/scene/polygon_generator.hpp"
 #include "tests/seeds.hpp"
 #include "verify/exact/exact_segments.hpp"
-#include "verify/near/obstacle_sides.hpp"
+#include "verify/near/obstacle_index.hpp"
 
 namespace warren {
 namespace {

@@ -9,7 +9,6 @@
 #include "planners/shorten/redrive.hpp"
 #include "tests/worlds/poses/body_scenes.hpp"
 #include "tests/worlds/poses/steering_words.hpp"
-#include "worlds/poses/reeds_shepp_curve.hpp"
 
 namespace warren {
 namespace {

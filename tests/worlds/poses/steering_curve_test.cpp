@@ -6,8 +6,6 @@
 #include "tests/seeds.hpp"
 #include "tests/worlds/poses/body_scenes.hpp"
 #include "tests/worlds/poses/steering_words.hpp"
-#include "worlds/poses/dubins_curve.hpp"
-#include "worlds/poses/reeds_shepp_curve.hpp"
 
 namespace warren {
 namespace {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/poses/ways_out.hpp"
+#include "worlds/poses/car_world.hpp"
 
 #include <gtest/gtest.h>
 
 #include "core/base/error.hpp"
 #include "tests/worlds/poses/body_scenes.hpp"
-#include "worlds/poses/reeds_shepp_curve.hpp"
 
 namespace warren {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/prices/side_prices.hpp"
+#include "worlds/prices/map_prices.hpp"
 
 #include <gtest/gtest.h>
 

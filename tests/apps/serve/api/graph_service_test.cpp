@@ -34,7 +34,7 @@ class Graphs {
     } catch (const HttpError& error) {
       return error_response(error);
     } catch (const UsageError& error) {
-      return error_response(400, "usage", "", error.what());
+      return error_response({400, "usage", "", error.what()});
     }
   }
   Json json(Place place, const std::string& body) { return Json::parse(asked(place, body).body); }

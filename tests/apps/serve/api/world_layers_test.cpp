@@ -22,20 +22,20 @@ namespace {
 
 using Json = nlohmann::json;
 
-HttpResponse asked(WorldService& service, const HttpRequest& request) {
+HttpResponse asked(const std::unique_ptr<HttpService>& service, const HttpRequest& request) {
   try {
-    service.most_body(request);
-    if (auto said = service.at_once(request, {})) return *said;
+    service->most_body(request);
+    if (auto said = service->at_once(request, {})) return *said;
   } catch (const HttpError& error) {
     return error_response(error);
   }
   const SignalFlag flag{0};
-  return answer_of(service, request, flag);
+  return answer_of(*service, request, flag);
 }
 
 std::string tag_of(const HttpResponse& response) { return response.fields.empty() ? "" : response.fields[0].second; }
 
-Json layer_of(WorldService& service, const std::string& name) {
+Json layer_of(const std::unique_ptr<HttpService>& service, const std::string& name) {
   const Json world = Json::parse(asked(service, {.path = "/api/world"}).body);
   for (const Json& layer : world.at("layers")) {
     if (layer.at("name") == name) return layer;
@@ -43,13 +43,13 @@ Json layer_of(WorldService& service, const std::string& name) {
   return {};
 }
 
-Json legend_of(WorldService& service, const std::string& name) {
+Json legend_of(const std::unique_ptr<HttpService>& service, const std::string& name) {
   return Json::parse(asked(service, {.path = "/" + layer_of(service, name).at("legend").get<std::string>()}).body);
 }
 
 TEST(WorldLayers, AWorldWithoutARoadmapSaysWhyItHasNone) {
   const ServedWorld world(scene_of(town), {}, {});
-  WorldService service(world, {});
+  const auto service = world_service(world, {});
   for (const char* name : {"roadmap", "components"}) {
     const Json layer = layer_of(service, name);
     EXPECT_EQ(layer.at("there"), false);
@@ -63,14 +63,14 @@ TEST(WorldLayers, AWorldWithoutARoadmapSaysWhyItHasNone) {
 
 TEST(WorldLayers, ARoadmapHasBothAndATagOfWhatIsDrawn) {
   const ServedWorld world(build(scene_of(town)), {});
-  WorldService service(world, {});
+  const auto service = world_service(world, {});
   const std::string whole = "/v/" + world.hash() + "/layers/roadmap/0/0/0.png";
   const HttpResponse first = asked(service, {.path = whole});
   ASSERT_EQ(first.status, 200U) << first.body;
   EXPECT_EQ(first.type, "image/png");
   EXPECT_EQ(layer_of(service, "components").at("there"), true);
-  ASSERT_TRUE(service.at_once({.path = whole}, {}));
-  EXPECT_EQ(service.at_once({.path = whole}, {})->body, first.body) << "kept";
+  ASSERT_TRUE(service->at_once({.path = whole}, {}));
+  EXPECT_EQ(service->at_once({.path = whole}, {})->body, first.body) << "kept";
   EXPECT_EQ(asked(service, {.path = whole, .if_none_match = tag_of(first)}).status, 304U);
   const HttpResponse components = asked(service, {.path = "/v/" + world.hash() + "/layers/components/0/0/0.png"});
   EXPECT_EQ(components.status, 200U);
@@ -78,13 +78,13 @@ TEST(WorldLayers, ARoadmapHasBothAndATagOfWhatIsDrawn) {
 
   const ServedWorld other(build(scene_of(town), {}, {.seed = 5}), {});
   ASSERT_EQ(other.hash(), world.hash());
-  WorldService again(other, {});
+  const auto again = world_service(other, {});
   EXPECT_EQ(asked(again, {.path = whole, .if_none_match = tag_of(first)}).status, 200U) << "another roadmap";
 }
 
 TEST(WorldLayers, AnEdgeIsInkAndWhatThereIsNoRoomForIsNone) {
   const ServedWorld world(build(scene_of(town)), {});
-  WorldService service(world, {});
+  const auto service = world_service(world, {});
   const TileGrid& grid = world.tiles().grid();
   constexpr unsigned zoom = 3;
   const auto opacity_at = [&](Vec2 p) {
@@ -111,7 +111,7 @@ TEST(WorldLayers, AnEdgeIsInkAndWhatThereIsNoRoomForIsNone) {
 
 TEST(WorldLayers, TheLegendHasFigures) {
   const ServedWorld world(build(scene_of("bounds 0 0 100 60\nwall 50 -1 50 61\n")), {});
-  WorldService service(world, {});
+  const auto service = world_service(world, {});
   const RoadmapParts parts = world.query()->roadmap().arrays.parts();
   const auto words = [&](const std::string& name, std::size_t i) {
     return legend_of(service, name).at(i).at("words").get<std::string>();
@@ -135,7 +135,7 @@ TEST(WorldLayers, ClearanceIsThereForWorldsOfEveryKindAndItsLegendSaysWhatUnit) 
   for (const std::string source : {"maze:20x20,seed=3", "maze:300x300,seed=3", "a.map"}) {
     SCOPED_TRACE(source);
     const ServedWorld world(read_world(source == "a.map" ? folder.file("a.map") : source, {}), {}, {});
-    WorldService service(world, {});
+    const auto service = world_service(world, {});
     const Json layer = layer_of(service, "clearance");
     ASSERT_EQ(layer.at("there"), true);
     const std::string zoom = std::to_string(layer.at("from_zoom").get<unsigned>());
@@ -156,14 +156,14 @@ TEST(WorldLayers, ClearanceIsThereForWorldsOfEveryKindAndItsLegendSaysWhatUnit) 
 TEST(WorldLayers, ClearanceSaysWhereADiscDoesNotFitAndWhyACrowdHasNone) {
   const Question disc{.robot = RobotSpec{.kind = RobotKind::disc, .radius = 4.0}, .clearance = 2.0};
   const ServedWorld world(scene_of(town), disc, {});
-  WorldService service(world, {});
+  const auto service = world_service(world, {});
   const Json legend = legend_of(service, "clearance");
   EXPECT_EQ(legend.at(0).at("words"), "nearer than 6: too near for disc 4");
   EXPECT_EQ(legend.at(0).at("color"), "#c8102e99");
   EXPECT_TRUE(legend.at(1).at("words").get<std::string>().starts_with("6 ")) << legend.at(1);
   const ServedWorld driven(scene_of(town), {.robot = robot_value("robot", "car radius 4 turning 5"), .clearance = 2.0},
                            {});
-  WorldService of_car(driven, {});
+  const auto of_car = world_service(driven, {});
   EXPECT_TRUE(legend_of(of_car, "clearance").at(0).at("words").get<std::string>().starts_with("nearer than 6: "));
   Scene scene = scene_of(town);
   for (int i = 0; i <= (1 << 21) / 4; ++i) {
@@ -171,7 +171,7 @@ TEST(WorldLayers, ClearanceSaysWhereADiscDoesNotFitAndWhyACrowdHasNone) {
     scene.polygons.push_back({{at, at + Vec2{0.05, 0}, at + Vec2{0.05, 0.05}, at + Vec2{0, 0.05}}});
   }
   const ServedWorld crowd(std::move(scene), {}, {});
-  WorldService other(crowd, {});
+  const auto other = world_service(crowd, {});
   EXPECT_EQ(layer_of(other, "clearance").at("there"), false);
   EXPECT_NE(layer_of(other, "clearance").at("why").get<std::string>().find("walls and sides"), std::string::npos);
   EXPECT_EQ(asked(other, {.path = "/v/" + crowd.hash() + "/layers/clearance/0/0/0.png"}).status, 400U);
@@ -179,7 +179,7 @@ TEST(WorldLayers, ClearanceSaysWhereADiscDoesNotFitAndWhyACrowdHasNone) {
 
 TEST(WorldLayers, TheSearchGoesOutFromTheStartThatIsAskedFor) {
   const ServedWorld world(build(scene_of("bounds 0 0 100 60\nwall 50 -1 50 61\n")), {});
-  WorldService service(world, {});
+  const auto service = world_service(world, {});
   ASSERT_EQ(layer_of(service, "search").at("of_start"), true);
   const std::string tile = "/v/" + world.hash() + "/layers/search/0/0/0.png";
   const HttpResponse left = asked(service, {.path = tile, .query = {{"from", "5,30"}}});
@@ -187,8 +187,8 @@ TEST(WorldLayers, TheSearchGoesOutFromTheStartThatIsAskedFor) {
   ASSERT_EQ(left.status, 200U) << left.body;
   ASSERT_EQ(right.status, 200U) << right.body;
   EXPECT_NE(left.body, right.body);
-  EXPECT_EQ(service.at_once({.path = tile, .query = {{"from", "95,30"}}}, {})->body, right.body);
-  EXPECT_EQ(service.at_once({.path = tile, .query = {{"from", "5,30"}}}, {})->body, left.body);
+  EXPECT_EQ(service->at_once({.path = tile, .query = {{"from", "95,30"}}}, {})->body, right.body);
+  EXPECT_EQ(service->at_once({.path = tile, .query = {{"from", "5,30"}}}, {})->body, left.body);
   EXPECT_EQ(asked(service, {.path = tile}).status, 400U);
   for (const char* wrong : {"", "5", "5,nan", "50,30", "500,30"}) {
     EXPECT_EQ(asked(service, {.path = tile, .query = {{"from", wrong}}}).status, 400U) << wrong;
@@ -213,7 +213,7 @@ double luminance(const std::string& color) {
 
 TEST(WorldLayers, LinesStandOutOnWhiteAndDarkerOnesAreNearer) {
   const ServedWorld world(build(scene_of("bounds 0 0 100 60\nwall 50 -1 50 61\n")), {});
-  WorldService service(world, {});
+  const auto service = world_service(world, {});
   const std::string legend = "/v/" + world.hash() + "/layers/search/legend";
   const Json search = Json::parse(asked(service, {.path = legend, .query = {{"from", "5,30"}}}).body);
   ASSERT_GT(search.size(), 4U);
@@ -234,7 +234,7 @@ TEST(WorldLayers, LinesStandOutOnWhiteAndDarkerOnesAreNearer) {
 
 TEST(WorldLayers, StepsOfClearanceStandOutOnWhiteAndDarkerOnesAreNearer) {
   const ServedWorld world(scene_of(town), {}, {});
-  WorldService service(world, {});
+  const auto service = world_service(world, {});
   const Json legend = legend_of(service, "clearance");
   ASSERT_EQ(legend.size(), step_inks.size());
   double last = -1.0;
@@ -254,7 +254,7 @@ TEST(WorldLayers, StepsOfClearanceStandOutOnWhiteAndDarkerOnesAreNearer) {
 
 TEST(WorldLayers, LegendsGroupDigitsByThree) {
   const ServedWorld world(build(scene_of("bounds 0 0 8000000 6000000\n")), {});
-  WorldService service(world, {});
+  const auto service = world_service(world, {});
   EXPECT_EQ(legend_of(service, "clearance").back().at("words"), grouped(3'000'000) + " and more");
   const std::string legend = "/v/" + world.hash() + "/layers/search/legend";
   const Json search = Json::parse(asked(service, {.path = legend, .query = {{"from", "10,10"}}}).body);
@@ -263,7 +263,7 @@ TEST(WorldLayers, LegendsGroupDigitsByThree) {
 
 TEST(WorldLayers, TheSearchSaysWhyThereIsNone) {
   const auto why = [](const ServedWorld& world) {
-    WorldService service(world, {});
+    const auto service = world_service(world, {});
     return layer_of(service, "search").value("why", "");
   };
   const ServedWorld plain(scene_of(town), {}, {});
@@ -298,7 +298,7 @@ TEST(WorldLayers, TheAxisRunsInTheMiddleOfACorridor) {
   };
   for (const Case& c :
        {Case{rooms, {50, 30}, {50, 33}}, Case{map, {15, 2.5}, {15, 1.5}}, Case{roadmap, {50, 30}, {50, 33}}}) {
-    WorldService service(c.world, {});
+    const auto service = world_service(c.world, {});
     ASSERT_EQ(layer_of(service, "axis").at("there"), true);
     const std::vector<test::InkPixel> pixels =
         test::read_inks(asked(service, {.path = "/v/" + c.world.hash() + "/layers/axis/0/0/0.png"}).body);
@@ -322,7 +322,7 @@ TEST(WorldLayers, AWorldWithoutAnAxisSaysWhy) {
   const ServedWorld cars(scene_of("bounds 0 0 100 60\nstart 5 30 0\ngoal 90 30 0\n"), {.robot = car}, {});
   const ServedWorld maze(read_world("maze:300x300,seed=7", {}), {}, {});
   for (const ServedWorld* world : {&cars, &maze}) {
-    WorldService service(*world, {});
+    const auto service = world_service(*world, {});
     const Json layer = layer_of(service, "axis");
     EXPECT_EQ(layer.at("there"), false);
     EXPECT_GT(layer.value("why", "").size(), 20U);
@@ -333,18 +333,18 @@ TEST(WorldLayers, AWorldWithoutAnAxisSaysWhy) {
 
 TEST(WorldLayers, TheSweepIsAskedOfThePathAndABodyWithoutExtentHasNone) {
   const ServedWorld disc(scene_of(town), {.robot = RobotSpec{.kind = RobotKind::disc, .radius = 1.0}}, {});
-  WorldService service(disc, {});
+  const auto service = world_service(disc, {});
   EXPECT_EQ(layer_of(service, "sweep").at("of_path"), "api/path/{id}/sweep");
   EXPECT_EQ(asked(service, {.path = "/v/" + disc.hash() + "/layers/sweep/0/0/0.png"}).status, 400U);
   const ServedWorld point(scene_of(town), {}, {});
-  WorldService other(point, {});
+  const auto other = world_service(point, {});
   EXPECT_EQ(layer_of(other, "sweep").at("there"), false);
   EXPECT_NE(layer_of(other, "sweep").at("why").get<std::string>().find("point"), std::string::npos);
 }
 
 TEST(WorldLayers, WhatIsNoLayerIsNotFound) {
   const ServedWorld world(build(scene_of(town)), {});
-  WorldService service(world, {});
+  const auto service = world_service(world, {});
   for (const std::string path :
        {"/layers/Roadmap/0/0/0.png", "/layers/walls/0/0/0.png", "/layers//0/0/0.png", "/layers/roadmap/0/1/0.png",
         "/layers/roadmap/0/0/0", "/layers/walls/legend", "/layers/roadmap/words"}) {
@@ -355,7 +355,7 @@ TEST(WorldLayers, WhatIsNoLayerIsNotFound) {
 
 TEST(WorldLayers, ALatticeShowsItsPassagesFromNear) {
   const ServedWorld world(read_world("maze:300x300,seed=7", {}), {}, {});
-  WorldService service(world, {});
+  const auto service = world_service(world, {});
   const Json roadmap = layer_of(service, "roadmap");
   ASSERT_EQ(roadmap.at("there"), true);
   const unsigned zoom = roadmap.at("from_zoom");

@@ -11,7 +11,7 @@
 #include <string>
 
 #include "apps/serve/page/served_files.hpp"
-#include "solve/answer/path_hash.hpp"
+#include "solve/answer/write_answer_io.hpp"
 #include "solve/solve.hpp"
 #include "tests/apps/serve/town.hpp"
 #include "tests/scenes/files/temporary_directory.hpp"
@@ -26,20 +26,20 @@ using Json = nlohmann::json;
 class Served {
  public:
   explicit Served(Scene scene, const Question& body = {}, const ServiceLimits& limits = {})
-      : world_(std::move(scene), body, {}), service_(world_, limits) {}
+      : world_(std::move(scene), body, {}), service_(world_service(world_, limits)) {}
   explicit Served(Roadmap roadmap, const ServiceLimits& limits = {})
-      : world_(std::move(roadmap), {}), service_(world_, limits) {}
+      : world_(std::move(roadmap), {}), service_(world_service(world_, limits)) {}
 
   HttpResponse asked(const HttpRequest& request, int gone = 0) {
     try {
-      const std::size_t most = service_.most_body(request);
-      if (request.body.size() > most) return error_response(413, "body_too_large", "body", "");
-      if (auto said = service_.at_once(request, {})) return *said;
+      const std::size_t most = service_->most_body(request);
+      if (request.body.size() > most) return error_response({413, "body_too_large", "body", ""});
+      if (auto said = service_->at_once(request, {})) return *said;
     } catch (const HttpError& error) {
       return error_response(error);
     }
     const SignalFlag flag{gone};
-    return answer_of(service_, request, flag);
+    return answer_of(*service_, request, flag);
   }
   HttpResponse get(const std::string& path, std::vector<std::pair<std::string, std::string>> query = {}) {
     return asked({.path = path, .query = std::move(query)});
@@ -49,11 +49,11 @@ class Served {
   }
   HttpResponse query(const Json& body) { return post("/api/query", body.dump()); }
   const ServedWorld& world() const { return world_; }
-  WorldService& service() { return service_; }
+  HttpService& service() { return *service_; }
 
  private:
   ServedWorld world_;
-  WorldService service_;
+  std::unique_ptr<HttpService> service_;
 };
 
 std::string field(const HttpResponse& response, const std::string& name) {

@@ -60,7 +60,8 @@ class Writable {
 
   HttpResponse asked(const HttpRequest& request) {
     try {
-      if (request.body.size() > service_->most_body(request)) return error_response(413, "body_too_large", "body", "");
+      if (request.body.size() > service_->most_body(request))
+        return error_response({413, "body_too_large", "body", ""});
       if (auto said = service_->at_once(request, {})) return *said;
     } catch (const HttpError& error) {
       return error_response(error);

@@ -159,7 +159,7 @@ TEST(HttpServer, SaysWhoHasItsPortAlready) {
   const RunningServer server({});
   TestService service;
   try {
-    const HttpServer second({.addresses = {"127.0.0.1"}, .port = server.server.port()}, {}, service);
+    const auto second = http_server({.addresses = {"127.0.0.1"}, .port = server.server.port()}, {}, service);
     FAIL() << "two listen at one port";
   } catch (const UsageError& error) {
     EXPECT_NE(std::string(error.what()).find("of 127.0.0.1 is taken; 0 takes a free one"), std::string::npos)

@@ -11,6 +11,7 @@
 #include <atomic>
 #include <chrono>
 #include <csignal>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -118,7 +119,8 @@ class Socket {
 
 class RunningServer {
  public:
-  explicit RunningServer(const serve::HttpLimits& limits) : server({.addresses = {"127.0.0.1"}}, limits, service) {
+  explicit RunningServer(const serve::HttpLimits& limits)
+      : listening_(serve::http_server({.addresses = {"127.0.0.1"}}, limits, service)), server(*listening_) {
     thread_ = std::thread([this] { server.run(stop_); });
     while (!service.prepared) std::this_thread::yield();  // else it waits for a thread beside the first request
   }
@@ -144,7 +146,12 @@ class RunningServer {
   }
 
   TestService service;
-  serve::HttpServer server;
+
+ private:
+  const std::unique_ptr<serve::HttpServer> listening_;
+
+ public:
+  serve::HttpServer& server;
 
  private:
   SignalFlag stop_{0};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Clearance as tiles, against distances that a plain loop over all walls and cells computes.
-#include "apps/serve/tiles/distance_layers.hpp"
+#include "apps/serve/tiles/world_tiles.hpp"
 
 #include <gtest/gtest.h>
 
@@ -164,10 +164,10 @@ TEST(ClearanceLayer, WideHallsOfAMazeAreAsFarAsTheirWalls) {
   }
   const auto tiles = maze_tiles(LatticePassages(size, std::move(words)), MazeOutline::of_course(size), {});
   const auto distances = tiles->distances({});
-  EXPECT_NEAR(distances->at({6.5, 3.0}), 2.5, 1e-12);
-  EXPECT_NEAR(distances->at({6.5, 3.9}), 3.4, 1e-12);
-  EXPECT_EQ(distances->at({6.5, 6.5}), 4.0) << "no farther is told";
-  EXPECT_TRUE(std::isnan(distances->at({12.6, 3.0})));
+  EXPECT_NEAR(distances.at({6.5, 3.0}), 2.5, 1e-12);
+  EXPECT_NEAR(distances.at({6.5, 3.9}), 3.4, 1e-12);
+  EXPECT_EQ(distances.at({6.5, 6.5}), 4.0) << "no farther is told";
+  EXPECT_TRUE(std::isnan(distances.at({12.6, 3.0})));
 }
 
 TEST(ClearanceLayer, PixelsOfMapsHaveTheStepOfTheirCell) {

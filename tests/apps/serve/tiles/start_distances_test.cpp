@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/serve/tiles/distance_layers.hpp"
+#include "apps/serve/tiles/roadmap_layer.hpp"
 
 #include <gtest/gtest.h>
 
