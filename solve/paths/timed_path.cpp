@@ -103,7 +103,7 @@ auto TimedPath::ramp(std::size_t leg) const -> Ramp {
 }
 
 PathMoment TimedPath::at(double t) const {
-  if (t >= times_.back()) return {legs_->leg_count() - 1, 1.0, 0.0};
+  if (t >= times_.back()) return {std::max<std::size_t>(legs_->leg_count(), 1) - 1, 1.0, 0.0};
   const auto next = std::upper_bound(times_.begin() + 1, times_.end() - 1, t);
   const auto leg = static_cast<std::size_t>(next - times_.begin()) - 1;
   const double length = legs_->length(leg);
@@ -157,6 +157,7 @@ PathLegs::PathLegs(const Answer& answer)
 }
 
 double PathLegs::number(std::size_t state, std::size_t k) const {
+  state = std::min(state, state_count_ - 1);
   if (!answer_->states.empty()) return answer_->states[state][k];
   return k == 0 ? answer_->path[state].x : answer_->path[state].y;
 }

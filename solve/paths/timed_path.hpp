@@ -28,7 +28,7 @@ struct PathState {
   std::span<const double> used() const { return {numbers.data(), width}; }
 };
 
-/// Refers to the answer, which has a path. Immutable.
+/// Refers to the answer, which has a path. A path of one state has no leg; asked for leg 0, it stays there. Immutable.
 class PathLegs {
  public:
   explicit PathLegs(const Answer& answer);
@@ -54,6 +54,7 @@ class PathLegs {
   PathState at(std::size_t i, double share) const;
 
  private:
+  /// Number k of a state; behind the last one, of the last.
   double number(std::size_t state, std::size_t k) const;
   Se2 pose(std::size_t state) const { return {number(state, 0), number(state, 1), number(state, 2)}; }
   /// Towards where a state moves, each number in units of length.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -102,6 +103,23 @@ TEST(PathFile, MomentsAreEvenAndTheGoalIsTheLast) {
   EXPECT_EQ(rows.back()[2], answer.states[answer.states.size() - 1][0]);
   EXPECT_NEAR(rows.back()[1], answer.length, 1e-9);
   EXPECT_TRUE(std::any_of(rows.begin(), rows.end(), [](const auto& row) { return row.back() < 0.0; })) << "it backs in";
+}
+
+/// Who is at the goal already, by planners that make no leg of that.
+TEST(PathFile, APathOfOneStateIsOneRowAtRest) {
+  Answer point;
+  point.path = {Vec2{1.5, 2.5}};
+  Answer car;
+  car.problem.robot = {.kind = RobotKind::car, .turning_radius = 1.5};
+  car.states.width = 3;
+  car.states.add(std::array{1.5, 2.5, 0.5});
+  const TravelLimits limits{.speed = 1.0};
+  for (const PathFileOptions& options : {PathFileOptions{.limits = limits}, {.every_s = 0.1, .limits = limits}}) {
+    EXPECT_EQ(written(point, ".csv", options), "t,s,x,y,speed\n0,0,1.5,2.5,0\n");
+    EXPECT_EQ(written(car, ".csv", options), "t,s,x,y,theta,speed\n0,0,1.5,2.5,0.5,0\n");
+  }
+  EXPECT_EQ(written(point, ".csv", {}), "s,x,y\n0,1.5,2.5\n");
+  EXPECT_EQ(written(car, ".csv", {}), "s,x,y,theta\n0,1.5,2.5,0.5\n");
 }
 
 TEST(PathFile, YamlIsAPathOfRos) {
