@@ -222,10 +222,6 @@ Drawing drawing_of_arm(const Scene& scene, const RobotSpec& robot, const std::ve
           .subtitle = std::move(subtitle)};
 }
 
-const std::vector<double>& first_given(const std::vector<double>& state, const std::vector<double>& otherwise) {
-  return state.empty() ? otherwise : state;
-}
-
 std::string body_text(const RobotSpec& robot, std::string_view metres) {
   switch (robot.kind) {
     case RobotKind::point:
@@ -314,14 +310,14 @@ Drawing drawing_of(const Scene& scene, const RecordedAnswer& answer, const Execu
                    std::optional<double> heading_rad) {
   const RobotSpec robot = robot_of(scene, answer.problem);
   if (heading_rad) check_has_headings(robot);
-  const std::vector<double>& start = first_given(answer.problem.start, scene.start);
+  const std::vector<double>& start = answer.problem.start.empty() ? scene.start : answer.problem.start;
   if (is_arm(robot)) {
     return drawing_of_arm(scene, robot, start, answer.states, subtitle_of(scene, answer), execution);
   }
   Drawing drawing{.layers = ground_of(scene, robot, answer.problem.prices, execution),
                   .path = answer.path,
                   .start = plane_point(start),
-                  .goal = plane_point(first_given(answer.problem.goal, scene.goal)),
+                  .goal = plane_point(answer.problem.goal.empty() ? scene.goal : answer.problem.goal),
                   .title = title_of(scene),
                   .subtitle = subtitle_of(scene, answer)};
   if (heading_rad) {

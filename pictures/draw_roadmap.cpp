@@ -25,7 +25,6 @@ constexpr Rgb unchecked_color{176, 184, 196};
 constexpr Rgb blocked_color{246, 130, 130};
 constexpr double thin = 0.5 * widths::edge;  // what can't be driven stands back
 constexpr std::size_t most_arrows = 2000;
-constexpr std::size_t polled = std::size_t{1} << 14;
 
 struct EdgeStyle {
   EdgeState state;
@@ -45,7 +44,7 @@ Graph edges_in(EdgeState state, const RoadmapArrays& arrays, const Execution& ex
   RawVector<EdgeEnd> offsets;
   RawVector<VertexId> targets;
   for (VertexId v = 0; v < all.vertex_count(); ++v) {
-    if (v % polled == 0) execution.check();
+    execution.poll(v);
     offsets.push_back(static_cast<EdgeEnd>(targets.size()));
     std::size_t end = all.first_end(v);
     for (const VertexId w : all.neighbours(v)) {
@@ -107,7 +106,7 @@ class RoadmapDrawing {
       PictureLayer layer{.id = style.id, .label = style.label, .color = style.color, .width = thin};
       const Graph graph = edges_in(style.state, arrays_, execution_);
       for (VertexId v = 0; v < vertex_count(); ++v) {
-        if (v % polled == 0) execution_.check();
+        execution_.poll(v);
         for (const VertexId w : graph.neighbours(v)) {
           if (v < w || arrays_.directed) layer.lines.add(std::array{position(v), position(w)});
         }
@@ -166,11 +165,8 @@ class RoadmapDrawing {
   const Execution& execution_;
 };
 
-}  // namespace
-
-Drawing drawing_of(const Scene& scene, const Roadmap& roadmap, const Execution& execution,
-                   std::optional<double> heading_rad) {
-  const EdgeCounts edges = count_edges(roadmap, execution);
+Drawing drawing_of_roadmap(const Scene& scene, const Roadmap& roadmap, const EdgeCounts& edges,
+                           std::optional<double> heading_rad, const Execution& execution) {
   const bool by_index = roadmap.lattice != nullptr;  // its blocked edges are its walls
   const std::uint64_t drawn = edges.free + (by_index ? 0 : edges.unchecked + edges.blocked);
   if (drawn > most_drawn_edges) {
@@ -184,15 +180,17 @@ Drawing drawing_of(const Scene& scene, const Roadmap& roadmap, const Execution& 
   return RoadmapDrawing(scene, roadmap, arrays, execution).draw(heading_rad);
 }
 
+}  // namespace
+
 void draw_roadmap(const Roadmap& roadmap, const std::string& description, std::optional<double> heading_rad,
                   const Execution& execution, const std::function<void(const Picture&)>& draw) {
   const Scene& world = roadmap.world.whole(execution);
   std::optional<Scene> copy;
   const Scene& scene = with_map_walls(world, copy, execution);
-  const Drawing drawing = drawing_of(scene, roadmap, execution, heading_rad);
+  const EdgeCounts edges = count_edges(roadmap, execution);
+  const Drawing drawing = drawing_of_roadmap(scene, roadmap, edges, heading_rad, execution);
   Picture picture = picture_of(scene, drawing);
   picture.title = title_of(world);
-  const EdgeCounts edges = count_edges(roadmap, execution);
   picture.subtitle = fmt::format("{}\nroadmap of {}, edges: {} free, {} blocked, {} unchecked",
                                  subtitle_of(world, roadmap.robot), counted(count_states(roadmap), "state", "states"),
                                  grouped(edges.free), grouped(edges.blocked), grouped(edges.unchecked));

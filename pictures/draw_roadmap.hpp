@@ -17,15 +17,10 @@ namespace warren {
 /// More edges are no picture but a grey.
 inline constexpr std::uint64_t most_drawn_edges = 900'000;
 
-/// The world and the roadmap on it, ready to be drawn; start and goal are those of the world. `scene`: the roadmap's,
-/// with the borders of a map's cells. heading_rad: as PictureOptions::heading.
-/// Throws UsageError for more edges than most_drawn_edges; Stopped; what it throws
-/// for a table of an arm, reading the roadmap has thrown before.
-Drawing drawing_of(const Scene& scene, const Roadmap& roadmap, const Execution& execution,
-                   std::optional<double> heading_rad = {});
-
-/// Calls `draw` with the picture of world and roadmap, which lives as long as that call. `description` is added to what
-/// the picture says of itself; heading_rad: as PictureOptions::heading. Throws what drawing_of() and `draw` throw.
+/// Calls `draw` with the picture of world and roadmap, which lives as long as that call; start and goal are those of
+/// the world. `description` is added to what the picture says of itself; heading_rad: as PictureOptions::heading.
+/// Throws UsageError for more edges than most_drawn_edges; Stopped; what `draw` throws; what it throws for a table of
+/// an arm, reading the roadmap has thrown before.
 void draw_roadmap(const Roadmap& roadmap, const std::string& description, std::optional<double> heading_rad,
                   const Execution& execution, const std::function<void(const Picture&)>& draw);
 

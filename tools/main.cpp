@@ -26,24 +26,18 @@ int dispatch(std::span<const std::string> words) {
     say_on_standard_error(program_help());
     return exit_code::usage;
   }
-  if (words[0] == "--help" || words[0] == "-h") {
-    print_text(program_help());
+  const auto say = [](const std::string& text) {
+    print_text(text);
     return exit_code::success;
-  }
-  if (words[0] == "--version" || words[0] == "-V" || words[0] == "-v") {
-    print_text(version_text(build_commit()));
-    return exit_code::success;
-  }
-  if (words[0] == "complete") {  // asked by the scripts of `warren completion`, so no verb
-    print_text(completion_lines(words.subspan(1)));
-    return exit_code::success;
-  }
-  const Command& command = command_named(words[0]);
+  };
+  const std::string& first = words[0];
+  if (first == "--help" || first == "-h") return say(program_help());
+  if (first == "--version" || first == "-V" || first == "-v") return say(version_text(build_commit()));
+  // Asked by the scripts of `warren completion`, so no verb.
+  if (first == "complete") return say(completion_lines(words.subspan(1)));
+  const Command& command = command_named(first);
   const Arguments arguments(command, words.subspan(1));
-  if (arguments.wants_help()) {
-    print_text(command_help(command, terminal_width(), arguments.wants_all_help()));
-    return exit_code::success;
-  }
+  if (arguments.wants_help()) return say(command_help(command, terminal_width(), arguments.wants_all_help()));
   check_outputs(arguments);
   return command.run(arguments);
 }

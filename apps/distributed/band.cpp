@@ -7,7 +7,6 @@
 
 #include "core/base/error.hpp"
 #include "planners/mazes/tile_source.hpp"
-#include "scenes/mazes/cell_bits.hpp"
 
 namespace warren::distributed {
 namespace {
@@ -31,10 +30,6 @@ std::span<const std::uint8_t> steps_in(const TileSummary& tile, const TileChain&
 }
 
 }  // namespace
-
-TileGrid BandTask::grid() const {
-  return TileGrid::of({unmade.maze->rows, unmade.maze->cols}, CellBits::usual_side_log2);
-}
 
 TileRows band_rows(std::size_t tile_rows, unsigned rank, unsigned ranks) {
   return {tile_rows * rank / ranks, tile_rows * (rank + std::size_t{1}) / ranks};

@@ -15,6 +15,7 @@
 #include "planners/mazes/overlay.hpp"
 #include "planners/mazes/tile_grid.hpp"
 #include "planners/mazes/tiled_prm_lattice.hpp"
+#include "scenes/mazes/cell_bits.hpp"
 #include "scenes/mazes/spanning_maze.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/question/question.hpp"
@@ -28,7 +29,7 @@ struct BandTask {
   Scene unmade;  ///< the maze without its walls; a file that has them as this rank sees it
   WallProblem problem;
 
-  TileGrid grid() const;
+  TileGrid grid() const { return TileGrid::of({unmade.maze->rows, unmade.maze->cols}, CellBits::usual_side_log2); }
   /// Of the judge.
   VerifyOptions judged() const { return {.radius = problem.robot.radius, .clearance = problem.clearance}; }
 };

@@ -119,8 +119,7 @@ class Follower {
   void run() {
     while (serve(transport_.receive(0, {.deadline = &waiting_}))) {
     }
-    const Reply ended = Reply::ended;
-    transport_.send(0, std::as_bytes(std::span(&ended, 1)), {.deadline = &waiting_});
+    transport_.send_value(0, Reply::ended, {.deadline = &waiting_});
   }
 
  private:
@@ -177,11 +176,15 @@ class Follower {
         return;
       }
       case Request::reduce:
-        return reduce(from, to);
+        ends_.start.links = from.take_list<EndLink>();
+        ends_.goal.links = from.take_list<EndLink>();
+        tiles_ = band_.reduce(ends_, from.take<BandPeeling>(), execution_);
+        return to.add(ReducedBand::of(tiles_));
       case Request::hand_over:
         return hand_over(to);
       case Request::rounds:
-        return rounds(from, to);
+        if (!rounds_) rounds_ = band_rounds(band_.grid(), band_.rows(), ends_, std::move(tiles_), execution_);
+        return rounds_->serve(from, to);
       case Request::steps:
         for (const auto& steps : band_.steps_of(from.take_list<TileChain>(), execution_)) to.add_list(steps);
         return;
@@ -201,12 +204,6 @@ class Follower {
     }
   }
 
-  void reduce(ValueUnpacker& from, ValuePacker& to) {
-    ends_.start.links = from.take_list<EndLink>();
-    ends_.goal.links = from.take_list<EndLink>();
-    tiles_ = band_.reduce(ends_, from.take<BandPeeling>(), execution_);
-    to.add(ReducedBand::of(tiles_));
-  }
   void hand_over(ValuePacker& to) {
     std::size_t bytes = 0;
     for (const TileSummary& tile : tiles_) bytes += tile.bytes();
@@ -217,16 +214,12 @@ class Follower {
     }
     let_go(tiles_);
   }
-  void rounds(ValueUnpacker& from, ValuePacker& to) {
-    if (!rounds_) rounds_ = band_rounds(band_.grid(), band_.rows(), ends_, std::move(tiles_), execution_);
-    rounds_->serve(from, to);
-  }
   void read(ValueUnpacker& from, ValuePacker& to) const {
     const auto number = from.take<std::size_t>();
     if (number < band_.tiles().first || number >= band_.tiles().last) throw InputError("tile", "is of another rank");
     CellTile tile;
     band_.walls(from.take<WallsFor>()).reader()->read(number, tile);
-    for (const std::uint32_t value : {tile.first_col, tile.first_row, tile.width, tile.height}) to.add(value);
+    to.add(std::array{tile.first_col, tile.first_row, tile.width, tile.height});
     to.add_list(tile.walls);
   }
 
@@ -281,11 +274,8 @@ class RemoteCells : public CellWallSource {
       requests_.ask_one(rank, Request::read, packer.bytes());
       const Bytes bytes = requests_.answer(rank);
       ValueUnpacker from(bytes, fmt::format("rank {}", rank));
-      CellTile tile;
-      for (auto* value : {&tile.first_col, &tile.first_row, &tile.width, &tile.height}) {
-        *value = from.take<std::uint32_t>();
-      }
-      tile.walls = from.take_list<std::uint8_t>();
+      const auto [col, row, width, height] = from.take<std::array<std::uint32_t, 4>>();
+      CellTile tile{col, row, width, height, from.take_list<std::uint8_t>()};
       if (tile.walls.size() != (std::size_t{tile.width} + 1) * (std::size_t{tile.height} + 1)) from.refuse();
       return tile;
     });

@@ -21,7 +21,6 @@
 #include "apps/distributed/band.hpp"
 #include "apps/distributed/rank_protocol.hpp"
 #include "apps/distributed/shared_search.hpp"
-#include "apps/distributed/transport.hpp"
 #include "core/run/execution.hpp"
 #include "solve/streamed/solve_streamed.hpp"
 

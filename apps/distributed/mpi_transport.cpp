@@ -65,7 +65,11 @@ void MpiTransport::send_piece(unsigned to, std::span<const std::byte> bytes, con
 
 /// A stop in the midst of a message leaves its rest to the next call, which skips it.
 Bytes MpiTransport::receive(unsigned from, const Execution& execution) {
-  skip_rest(from, execution);
+  while (unread_[from] > 0) {
+    Bytes piece(std::min<std::uint64_t>(piece_bytes, unread_[from]));
+    receive_piece(from, piece, execution);
+    unread_[from] -= piece.size();
+  }
   std::uint64_t size = 0;
   receive_piece(from, std::as_writable_bytes(std::span(&size, 1)), execution);
   unread_[from] = size;
@@ -77,14 +81,6 @@ Bytes MpiTransport::receive(unsigned from, const Execution& execution) {
     unread_[from] -= piece.size();
   }
   return bytes;
-}
-
-void MpiTransport::skip_rest(unsigned from, const Execution& execution) {
-  while (unread_[from] > 0) {
-    Bytes piece(std::min<std::uint64_t>(piece_bytes, unread_[from]));
-    receive_piece(from, piece, execution);
-    unread_[from] -= piece.size();
-  }
 }
 
 /// Stops before the piece has begun to come, or not at all.

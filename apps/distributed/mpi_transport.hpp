@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "apps/distributed/transport.hpp"
+#include "apps/distributed/rank_protocol.hpp"
 
 namespace warren::distributed {
 
@@ -31,7 +31,6 @@ class MpiTransport : public Transport {
  private:
   void send_piece(unsigned to, std::span<const std::byte> bytes, const Execution& execution);
   void receive_piece(unsigned from, std::span<std::byte> bytes, const Execution& execution);
-  void skip_rest(unsigned from, const Execution& execution);
 
   int rank_ = 0;  // as MPI counts
   int ranks_ = 1;

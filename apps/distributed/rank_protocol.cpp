@@ -73,10 +73,7 @@ bool end_others(Transport& transport, Reply last_word) {
   const Deadline patience(patience_s);
   const Execution patiently{.deadline = &patience};
   try {
-    const Request end = Request::end;
-    for (unsigned rank = 1; rank < transport.ranks(); ++rank) {
-      transport.send(rank, std::as_bytes(std::span(&end, 1)), patiently);
-    }
+    for (unsigned rank = 1; rank < transport.ranks(); ++rank) transport.send_value(rank, Request::end, patiently);
     for (unsigned rank = 1; rank < transport.ranks(); ++rank) {
       while (!is(transport.receive(rank, patiently), last_word)) {
       }
@@ -116,8 +113,7 @@ bool all_have_left(Transport& transport) { return end_others(transport, Reply::g
 
 void leave(Transport& transport) {
   const Deadline patience(patience_s);
-  const Reply gone = Reply::gone;
-  transport.send(0, std::as_bytes(std::span(&gone, 1)), {.deadline = &patience});
+  transport.send_value(0, Reply::gone, {.deadline = &patience});
 }
 
 void say_where_stopped(const Transport& transport, const Progress& progress, StopReason reason) {

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What rank 0 asks of the others, and how they answer. Rank 0 leads: it sends the same request to all, does its own
-// share, and takes the others' answers; nobody else ever speaks first. So no two ranks wait for each other, and a
-// message that comes to a rank at work can only be the end.
+// How the processes of one run, its ranks, hand bytes to each other (two models: MPI, mpi_transport.hpp, and threads
+// of one process, for tests), and what rank 0 asks of the others, and how they answer. Rank 0 leads: it sends the same
+// request to all, does its own share, and takes the others' answers; nobody else ever speaks first. So no two ranks
+// wait for each other, and a message that comes to a rank at work can only be the end.
 #pragma once
 
+#include <time.h>
+
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -14,9 +18,53 @@
 #include <string_view>
 #include <vector>
 
-#include "apps/distributed/transport.hpp"
+#include "core/base/packed_values.hpp"
+#include "core/base/types.hpp"
+#include "core/run/execution.hpp"
 
 namespace warren::distributed {
+
+/// Messages between two ranks arrive in their order. One call at a time. Waits sleep, poll the deadline and throw
+/// Stopped.
+class Transport : NotCopied {
+ public:
+  virtual ~Transport() = default;
+  virtual unsigned rank() const = 0;  ///< 0 .. ranks() - 1
+  virtual unsigned ranks() const = 0;
+  /// Returns when the bytes may be changed.
+  virtual void send(unsigned to, std::span<const std::byte> bytes, const Execution& execution) = 0;
+  /// The same, of a plain value as it lies in memory.
+  template <class T>
+  void send_value(unsigned to, const T& value, const Execution& execution) {
+    send(to, std::as_bytes(std::span(&value, 1)), execution);
+  }
+  /// Waits for the next message of that rank.
+  virtual Bytes receive(unsigned from, const Execution& execution) = 0;
+  /// Has a message of that rank come?
+  virtual bool has_message(unsigned from) = 0;
+
+  std::uint64_t bytes_sent() const { return bytes_sent_; }
+
+ protected:
+  std::uint64_t bytes_sent_ = 0;
+};
+
+/// Waiting for another process: sleeps, so that whoever shares the core can work, 50 us first and 2 ms at most.
+class Patience {
+ public:
+  /// Throws Stopped.
+  void wait(const Execution& execution) {
+    execution.check();
+    const timespec pause{0, pause_ns_};
+    ::nanosleep(&pause, nullptr);
+    pause_ns_ = std::min(2 * pause_ns_, 2'000'000L);
+  }
+  /// What was waited for has come.
+  void renew() { pause_ns_ = 50'000; }
+
+ private:
+  long pause_ns_ = 50'000;
+};
 
 /// The stages of a run, as messages name them.
 enum class Request : std::uint32_t { make, turn, reduce, hand_over, rounds, steps, judge, read, end };

@@ -155,14 +155,11 @@ struct Mazes {
   explicit Mazes(const tools::Arguments& arguments)
       : side(tools::given_count(arguments, "--side", 1, 1'000'000).value_or(4000)),
         made(tools::maze_words(arguments, {.seed = tools::seed_word(arguments), .algorithm = MazeAlgorithm::mst})) {}
-  Scene scene(const NextRun& run) const {
+  BandTask task(const NextRun& run) const {
     MazeOptions sized = made;
     sized.rows = run.rows;
     sized.cols = run.cols;
-    return unmade_maze_scene(sized);
-  }
-  BandTask task(const NextRun& run) const {
-    const Scene unmade = scene(run);
+    const Scene unmade = unmade_maze_scene(sized);
     return {unmade, keeping_off(unmade, {}, "")};
   }
   std::uint32_t side;
@@ -174,9 +171,7 @@ RanksRun measured(Transport& transport, const Mazes& mazes, bool is_strong, cons
                   const Execution& execution) {
   const auto told = [&](const auto& work) { telling_where_stopped(transport, *execution.progress, work); };
   told([&] {
-    for (unsigned rank = 1; rank < transport.ranks(); ++rank) {
-      transport.send(rank, std::as_bytes(std::span(&next, 1)), execution);
-    }
+    for (unsigned rank = 1; rank < transport.ranks(); ++rank) transport.send_value(rank, next, execution);
   });
   const UsedMeter meter(transport);
   const auto begin = std::chrono::steady_clock::now();
@@ -185,12 +180,13 @@ RanksRun measured(Transport& transport, const Mazes& mazes, bool is_strong, cons
     FirstRanks first(transport, next.ranks);
     const EndOfFollowers end(first);
     told([&] {
-      const auto leader = leader_of(first, mazes.task(next), execution);
+      const BandTask task = mazes.task(next);
+      const auto leader = leader_of(first, task, execution);
       PathArrayFile nobodys("", execution);
       SolveOptions options;
       options.roadmap.pipeline = PipelineKind::streamed;
       const Answer answer =
-          solve_streamed_within(mazes.scene(next), {}, options, execution, {.taker = &nobodys, .team = leader.get()});
+          solve_streamed_within(task.unmade, {}, options, execution, {.taker = &nobodys, .team = leader.get()});
       if (answer.stop_reason) throw Stopped(*answer.stop_reason);
       found.length = answer.length;
       found.traffic = leader->traffic();
@@ -246,8 +242,7 @@ int follow_runs(const tools::Arguments& arguments, Transport& transport) {
       const UsedMeter meter(transport);
       FirstRanks first(transport, next.ranks);
       follow(first, mazes.task(next), limits);
-      const RankUse used = meter.used();
-      transport.send(0, std::as_bytes(std::span(&used, 1)), {.deadline = &waiting});
+      transport.send_value(0, meter.used(), {.deadline = &waiting});
     }
   });
 }

@@ -22,67 +22,59 @@ namespace warren::distributed {
 namespace {
 
 /// Borders of a band, and sides of the search, as they stand in messages.
-enum class Border : std::uint32_t { below, above };
+enum Border : std::uint32_t { below, above };
 constexpr std::size_t border_count = 2;
 constexpr std::size_t side_count = 2;
-constexpr Border borders[border_count] = {Border::below, Border::above};
-constexpr std::size_t number(Border border) { return static_cast<std::size_t>(border); }
-constexpr std::size_t below = number(Border::below);
-constexpr std::size_t above = number(Border::above);
+constexpr Border borders[border_count] = {below, above};
 /// The side of a tile at that border, and that of the tile beyond it.
-constexpr unsigned tile_side(Border border) { return border == Border::above ? 1 : 3; }
+constexpr unsigned tile_side(Border border) { return border == above ? 1 : 3; }
 
 /// A label over a border, by the crossing's number along it.
 struct CrossingLabel {
   std::uint64_t crossing;
   double label;
 };
+/// Lists by border, or by side of the search.
+template <class T>
+using ListPair = std::array<std::vector<T>, 2>;
+template <class T>
+void add_pair(const ListPair<T>& lists, ValuePacker& to) {
+  for (const auto& list : lists) to.add_list(list);
+}
+template <class T>
+ListPair<T> take_pair(ValueUnpacker& from) {
+  return {from.take_list<T>(), from.take_list<T>()};
+}
 /// What is told over the borders of a band, by side of the search and border.
 template <class T>
 struct BorderLists {
-  std::array<std::array<std::vector<T>, border_count>, side_count> of;
+  std::array<ListPair<T>, side_count> of;
 
   void pack(ValuePacker& to) const {
-    for (const auto& side : of) {
-      for (const auto& list : side) to.add_list(list);
-    }
+    for (const auto& side : of) add_pair(side, to);
   }
-  static BorderLists unpack(ValueUnpacker& from) {
-    BorderLists told;
-    for (auto& side : told.of) {
-      for (auto& list : side) list = from.take_list<T>();
-    }
-    return told;
-  }
+  static BorderLists unpack(ValueUnpacker& from) { return {{take_pair<T>(from), take_pair<T>(from)}}; }
 };
 using ToldLabels = BorderLists<CrossingLabel>;
 
 /// Answer to RoundStep::hold: what is missing, or what the others must know of the band.
 struct HeldBand {
   std::uint64_t lacking_bytes = 0;
-  std::uint64_t components = 0;                                       ///< of the band by itself
-  std::array<std::vector<std::uint32_t>, border_count> cols;          ///< of the crossings, ascending
-  std::array<std::vector<std::uint32_t>, border_count> component_of;  ///< the crossings' own keys, numbered from 0
-  std::array<std::vector<std::uint32_t>, side_count> linked;          ///< components that start and goal join
-  std::uint32_t component_numbers = 0;                                ///< of these
+  std::uint64_t components = 0;               ///< of the band by itself
+  std::uint32_t component_numbers = 0;        ///< of those in component_of and linked
+  ListPair<std::uint32_t> cols = {};          ///< of the crossings, ascending
+  ListPair<std::uint32_t> component_of = {};  ///< the crossings' own keys, numbered from 0
+  ListPair<std::uint32_t> linked = {};        ///< components that start and goal join
 
   void pack(ValuePacker& to) const {
     to.add(lacking_bytes);
     to.add(components);
     to.add(component_numbers);
-    for (const auto* lists : {&cols, &component_of, &linked}) {
-      for (const auto& list : *lists) to.add_list(list);
-    }
+    for (const auto* lists : {&cols, &component_of, &linked}) add_pair(*lists, to);
   }
   static HeldBand unpack(ValueUnpacker& from) {
-    HeldBand band;
-    band.lacking_bytes = from.take<std::uint64_t>();
-    band.components = from.take<std::uint64_t>();
-    band.component_numbers = from.take<std::uint32_t>();
-    for (auto* lists : {&band.cols, &band.component_of, &band.linked}) {
-      for (auto& list : *lists) list = from.take_list<std::uint32_t>();
-    }
-    return band;
+    return {from.take<std::uint64_t>(),     from.take<std::uint64_t>(),     from.take<std::uint32_t>(),
+            take_pair<std::uint32_t>(from), take_pair<std::uint32_t>(from), take_pair<std::uint32_t>(from)};
   }
 };
 
@@ -144,11 +136,7 @@ class RoundsOfBand : public BandRounds {
 
  private:
   void hold(ValuePacker& to) {
-    if (const std::size_t lacking = lacking_bytes()) {
-      HeldBand none;
-      none.lacking_bytes = lacking;
-      return none.pack(to);
-    }
+    if (const std::size_t lacking = lacking_bytes()) return HeldBand{.lacking_bytes = lacking}.pack(to);
     add_tiles_beyond();
     check_borders(seen_, tiles_, execution_);
     const Range own_tiles{(rows_.first - seen_rows_.first) * grid_.tile_cols,
@@ -157,7 +145,7 @@ class RoundsOfBand : public BandRounds {
     keep_beyond(own_tiles);
     overlay_.emplace(seen_, tiles_, kept_, execution_);
     own_ = {overlay_->first_key(own_tiles.first), overlay_->first_key(own_tiles.last)};
-    for (const Border border : borders) is_gone_[number(border)].assign(crossing_count(border), false);
+    for (const Border border : borders) is_gone_[border].assign(crossing_count(border), false);
     for (TileSummary& tile : tiles_) {
       let_go(tile.chains);
       tile.crossings = {};
@@ -181,20 +169,20 @@ class RoundsOfBand : public BandRounds {
       for (const std::uint16_t key : tile.crossings[tile_side(border)]) {
         const std::uint32_t col = tile.keys[key] & (side - 1);
         crossings.push_back(static_cast<std::uint16_t>(made.keys.size()));
-        made.keys.push_back(static_cast<std::uint16_t>(border == Border::below ? (side - 1) * side + col : col));
+        made.keys.push_back(static_cast<std::uint16_t>(border == below ? (side - 1) * side + col : col));
       }
       return made;
     };
     std::vector<TileSummary> all;
     all.reserve(seen_.count());
     if (seen_rows_.first < rows_.first) {
-      for (std::size_t t = 0; t < grid_.tile_cols; ++t) all.push_back(beyond(tiles_[t], Border::below));
+      for (std::size_t t = 0; t < grid_.tile_cols; ++t) all.push_back(beyond(tiles_[t], below));
     }
     const std::size_t last = tiles_.size();
     std::move(tiles_.begin(), tiles_.end(), std::back_inserter(all));
     if (seen_rows_.last > rows_.last) {
       for (std::size_t t = last; t < last + grid_.tile_cols; ++t) {
-        all.push_back(beyond(all[all.size() - grid_.tile_cols], Border::above));
+        all.push_back(beyond(all[all.size() - grid_.tile_cols], above));
       }
     }
     tiles_ = std::move(all);
@@ -228,8 +216,8 @@ class RoundsOfBand : public BandRounds {
       for (std::uint64_t i = 0; i < crossing_count(border); ++i) {
         const VertexId v = beyond(border, i);
         const std::size_t tile = overlay_->tile_of(v);
-        band.cols[number(border)].push_back(seen_.first_col(tile) + place_of(v) % grid_.side());
-        band.component_of[number(border)].push_back(components.root(within(v)));
+        band.cols[border].push_back(seen_.first_col(tile) + place_of(v) % grid_.side());
+        band.component_of[border].push_back(components.root(within(v)));
       }
     }
     const auto links = overlay_->ends(overlay_->goal());
@@ -262,8 +250,8 @@ class RoundsOfBand : public BandRounds {
     for (const Border border : borders) {
       std::vector<std::uint64_t> gone;
       for (std::uint64_t i = 0; i < crossing_count(border); ++i) {
-        if (is_gone_[number(border)][i] || !overlay_->is_peeled(within(beyond(border, i)))) continue;
-        is_gone_[number(border)][i] = true;
+        if (is_gone_[border][i] || !overlay_->is_peeled(within(beyond(border, i)))) continue;
+        is_gone_[border][i] = true;
         gone.push_back(i);
       }
       to.add_list(gone);
@@ -325,7 +313,7 @@ class RoundsOfBand : public BandRounds {
     const auto asked = from.take<TraceFrom>();
     RawVector<VertexId> path = sides_[asked.side % side_count]->path_from(vertex_at(asked));
     const bool is_root = path.back() >= own_.first && path.back() < own_.last;
-    TraceEnd end{is_root ? 1U : 0U, Border::below, 0};
+    TraceEnd end{is_root ? 1U : 0U, below, 0};
     if (!is_root) std::tie(end.border, end.crossing) = crossing_of(path.back());
     execution_.reserve(2 * path.size() * sizeof(RouteKey));
     std::vector<RouteKey> keys;
@@ -342,7 +330,7 @@ class RoundsOfBand : public BandRounds {
     const ToldLabels told = ToldLabels::unpack(from);
     for (std::size_t side = 0; side < side_count; ++side) {
       for (const Border border : borders) {
-        for (const CrossingLabel& label : told.of[side][number(border)]) {
+        for (const CrossingLabel& label : told.of[side][border]) {
           sides_[side]->receive({within(beyond(border, label.crossing)), label.label});
         }
       }
@@ -353,7 +341,7 @@ class RoundsOfBand : public BandRounds {
     for (std::size_t side = 0; side < side_count; ++side) {
       for (const StepSide::Told& label : sides_[side]->take_told()) {
         const auto [border, crossing] = crossing_of(label.key);
-        told.of[side][number(border)].push_back({crossing, label.label});
+        told.of[side][border].push_back({crossing, label.label});
       }
     }
     return told;
@@ -378,15 +366,15 @@ class RoundsOfBand : public BandRounds {
   /// The key beyond a border, and the own key that it leads to.
   VertexId beyond(Border border, std::uint64_t crossing) const {
     if (crossing >= crossing_count(border)) throw InputError("crossing", "is none of this border");
-    return static_cast<VertexId>(crossing + (border == Border::below ? 0 : own_.last));
+    return static_cast<VertexId>(crossing + (border == below ? 0 : own_.last));
   }
   VertexId within(VertexId beyond) const { return overlay_->row(beyond)[0].target; }
   std::pair<Border, std::uint64_t> crossing_of(VertexId beyond) const {
-    if (beyond < own_.first) return {Border::below, beyond};
-    return {Border::above, beyond - own_.last};
+    if (beyond < own_.first) return {below, beyond};
+    return {above, beyond - own_.last};
   }
   std::uint64_t crossing_count(Border border) const {
-    return border == Border::below ? own_.first : overlay_->start() - own_.last;
+    return border == below ? own_.first : overlay_->start() - own_.last;
   }
 
   const TileGrid grid_;
@@ -489,12 +477,10 @@ class SharedSearch {
   }
   /// Until nobody's dead ends go on beyond a border.
   void peel() {
-    using Gone = std::array<std::vector<std::uint64_t>, border_count>;
-    std::vector<Gone> gone(ranks_.size());
+    std::vector<ListPair<std::uint64_t>> gone(ranks_.size());
     for (bool goes_on = true; goes_on;) {
-      const std::vector<Bytes> answers = all(RoundStep::peel, [&](std::size_t band, ValuePacker& to) {
-        for (const auto& crossings : gone[band]) to.add_list(crossings);
-      });
+      const std::vector<Bytes> answers =
+          all(RoundStep::peel, [&](std::size_t band, ValuePacker& to) { add_pair(gone[band], to); });
       goes_on = false;
       gone.assign(ranks_.size(), {});
       for (std::size_t b = 0; b < answers.size(); ++b) {
@@ -567,8 +553,7 @@ class SharedSearch {
   }
   /// The way back from the meeting to the side's end; steps lead to the next key of it.
   std::vector<RouteKey> trace(std::size_t side) {
-    TraceFrom from{static_cast<std::uint32_t>(side), 0, Border::below, static_cast<std::uint32_t>(best_.place),
-                   best_.tile};
+    TraceFrom from{static_cast<std::uint32_t>(side), 0, below, static_cast<std::uint32_t>(best_.place), best_.tile};
     std::size_t band = 0;
     while (band_rows(grid_.tile_rows, ranks_[band], requests_.ranks()).last * grid_.tile_cols <= best_.tile) ++band;
     std::vector<RouteKey> keys;
@@ -584,10 +569,10 @@ class SharedSearch {
       execution_.reserve(2 * (keys.size() + part.size()) * sizeof(RouteKey));
       keys.insert(keys.end(), part.begin(), part.end());
       if (end.is_root != 0) return keys;
-      const bool is_below = end.border == Border::below;
+      const bool is_below = end.border == below;
       if (part.empty() || (is_below ? band == 0 : band + 1 == ranks_.size())) found.refuse();
       band = is_below ? band - 1 : band + 1;
-      from = {static_cast<std::uint32_t>(side), 1, is_below ? Border::above : Border::below, 0, end.crossing};
+      from = {static_cast<std::uint32_t>(side), 1, is_below ? above : below, 0, end.crossing};
     }
   }
 
@@ -643,7 +628,7 @@ class SharedSearch {
   /// What bands tell over their borders is on its way to their neighbours, until the next message.
   void tell(const std::vector<ToldLabels>& told) {
     on_way_.assign(ranks_.size(), {});
-    const auto hand_on = [&](std::size_t to, std::size_t at, std::size_t from, std::size_t over) {
+    const auto hand_on = [&](std::size_t to, Border at, std::size_t from, Border over) {
       for (std::size_t side = 0; side < side_count; ++side) {
         on_way_[to].of[side][at] = told[from].of[side][over];
         for (const CrossingLabel& label : told[from].of[side][over]) {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "apps/distributed/leader_follower.hpp"
-#include "apps/distributed/transport.hpp"
+#include "apps/distributed/rank_protocol.hpp"
 #include "core/run/execution.hpp"
 #include "scenes/scene/scene.hpp"
 #include "tools/words/command.hpp"

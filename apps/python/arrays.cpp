@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/python/arrays.hpp"
+#include "apps/python/bind.hpp"
 
 #include <fmt/format.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "apps/python/bind.hpp"
 
-#include <array>
 #include <cstring>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -156,14 +156,10 @@ void put(Ar& ar, Eigen::Isometry3d& pose) {
   ar.block(pose.matrix().data(), 16 * sizeof(double));
 }
 
-template <class Ar, class A, class B>
-requires(!std::is_trivially_copyable_v<std::pair<A, B>>) void put(Ar& ar, std::pair<A, B>& both) {
-  all(ar, both.first, both.second);
-}
-
-template <class Ar>
-void put(Ar& ar, std::array<std::string, 2>& both) {
-  all(ar, both[0], both[1]);
+/// A pair or an array.
+template <class Ar, class T>
+requires(!std::is_trivially_copyable_v<T> && requires { std::tuple_size<T>::value; }) void put(Ar& ar, T& parts) {
+  std::apply([&](auto&... part) { all(ar, part...); }, parts);
 }
 
 /// Says each member once: for the binding, which doesn't compile where one is missing, and for the archive. The macro

@@ -6,10 +6,7 @@
 #include <limits>
 #include <optional>
 
-#include "apps/python/arrays.hpp"
 #include "apps/python/bind.hpp"
-#include "apps/python/keywords.hpp"
-#include "apps/python/library_calls.hpp"
 #include "pictures/answer_summary.hpp"
 #include "scenes/text/human_units.hpp"
 #include "scenes/text/output_file_io.hpp"

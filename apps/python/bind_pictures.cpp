@@ -2,10 +2,7 @@
 // Worlds, answers and roadmaps as SVG, HTML, PNG and PDF, and what a planner made as arrays, for plots.
 #include <pybind11/stl.h>
 
-#include "apps/python/arrays.hpp"
 #include "apps/python/bind.hpp"
-#include "apps/python/keywords.hpp"
-#include "apps/python/library_calls.hpp"
 #include "pictures/draw_answer.hpp"
 #include "pictures/draw_roadmap.hpp"
 #include "pictures/formats/write_picture.hpp"

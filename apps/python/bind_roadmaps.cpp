@@ -2,17 +2,13 @@
 // Roadmaps: built, asked, updated, in files, as arrays.
 
 #include <fmt/format.h>
-#include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
 #include <algorithm>
 #include <iterator>
 #include <limits>
 
-#include "apps/python/arrays.hpp"
 #include "apps/python/bind.hpp"
-#include "apps/python/keywords.hpp"
-#include "apps/python/library_calls.hpp"
 #include "core/base/error.hpp"
 #include "core/run/execution.hpp"
 #include "core/search/graph.hpp"

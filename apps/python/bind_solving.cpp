@@ -9,9 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/python/arrays.hpp"
 #include "apps/python/bind.hpp"
-#include "apps/python/keywords.hpp"
 #include "apps/studies/comparison_report.hpp"
 #include "core/run/execution.hpp"
 #include "scenes/files/npy_io.hpp"
@@ -257,9 +255,6 @@ void bind_solving(py::module_& module) {
       .def("scene", [](const Replanner& replanner) { return replanner.scene(); });
   module.def("solve_keywords", [] { return keyword_table(made_once<solving>()); });
   module.def("verify_keywords", [] { return keyword_table(made_once<verifying>()); });
-}
-
-void bind_studies(py::module_& module) {
   py::class_<studies::Comparison>(module, "Comparison")
       .def("runs_csv", &studies::comparison_runs)
       .def("table_csv", &studies::comparison_csv)

@@ -3,7 +3,6 @@
 // written.
 
 #include <fmt/format.h>
-#include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
@@ -15,9 +14,7 @@
 #include <string_view>
 #include <utility>
 
-#include "apps/python/arrays.hpp"
 #include "apps/python/bind.hpp"
-#include "apps/python/keywords.hpp"
 #include "core/base/error.hpp"
 #include "core/run/execution.hpp"
 #include "scenes/arms/solid_text.hpp"

@@ -3,7 +3,6 @@
 #include <pybind11/pybind11.h>
 
 #include "apps/python/bind.hpp"
-#include "apps/python/library_calls.hpp"
 
 PYBIND11_MODULE(_core, module) {
   using namespace warren::python;
@@ -14,5 +13,4 @@ PYBIND11_MODULE(_core, module) {
   bind_pictures(module);
   bind_solving(module);
   bind_roadmaps(module);
-  bind_studies(module);
 }

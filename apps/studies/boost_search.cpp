@@ -2,7 +2,7 @@
 // Boost.Graph's searches on the same graph with the same numbering, the peer of `warren compare --peer boost`: its
 // compressed rows, edge lengths in an array, maps allocated once. A visitor ends each search at the goal by throwing,
 // as Boost's own example of A* does; its priority queue is Boost's indirect 4-ary heap.
-#include "apps/studies/search_graph.hpp"
+#include "apps/studies/search_contest.hpp"
 
 #include <algorithm>
 #include <boost/graph/astar_search.hpp>
@@ -109,7 +109,10 @@ class BoostSearch {
   }
 
   void search(const Watch& watch) {
-    const auto lengths = get(&Weight::length, graph_);
+    const auto maps = boost::weight_map(get(&Weight::length, graph_))
+                          .distance_map(map(g_))
+                          .predecessor_map(map(parent_))
+                          .color_map(map(color_));
     const auto to_goal = [&at = from_.at, goal = from_.at[from_.goal]](BoostVertex v) { return distance(at[v], goal); };
     switch (search_) {
       case SearchKind::bfs:
@@ -119,20 +122,9 @@ class BoostSearch {
         std::fill(color_.begin(), color_.end(), boost::white_color);
         return boost::depth_first_visit(graph_, from_.start, DepthVisitor(watch, parent_), map(color_));
       case SearchKind::dijkstra:
-        return boost::dijkstra_shortest_paths(graph_, from_.start,
-                                              boost::weight_map(lengths)
-                                                  .distance_map(map(g_))
-                                                  .predecessor_map(map(parent_))
-                                                  .color_map(map(color_))
-                                                  .visitor(DijkstraVisitor(watch)));
+        return boost::dijkstra_shortest_paths(graph_, from_.start, maps.visitor(DijkstraVisitor(watch)));
       case SearchKind::astar:
-        return boost::astar_search(graph_, from_.start, to_goal,
-                                   boost::weight_map(lengths)
-                                       .distance_map(map(g_))
-                                       .rank_map(map(f_))
-                                       .predecessor_map(map(parent_))
-                                       .color_map(map(color_))
-                                       .visitor(AStarVisitor(watch)));
+        return boost::astar_search(graph_, from_.start, to_goal, maps.rank_map(map(f_)).visitor(AStarVisitor(watch)));
     }
   }
 

@@ -8,7 +8,7 @@
 #include <map>
 #include <numeric>
 
-#include "apps/studies/search_graph.hpp"
+#include "apps/studies/search_contest.hpp"
 #include "core/base/rng.hpp"
 #include "scenes/text/scene_text.hpp"
 #include "solve/answer/write_answer_io.hpp"
@@ -150,30 +150,25 @@ std::string options_text(const Contender& contender) {
   return fmt::format("{}", fmt::join(option_parts(contender), ", "));
 }
 
-std::vector<const Contender*> contenders_of(const Comparison& comparison, std::size_t problem) {
-  std::vector<const Contender*> all;
-  for (const Contender& c : comparison.contenders) {
-    if (c.problem == problem) all.push_back(&c);
-  }
-  return all;
-}
-
-std::vector<std::string> plot_names_of(std::span<const Contender* const> contenders, bool with_planner) {
+std::vector<NamedContender> named_contenders(const Comparison& comparison, std::size_t problem) {
+  std::vector<NamedContender> named;
   std::vector<std::vector<std::string>> all;
-  for (const Contender* c : contenders) all.push_back(name_parts(*c, with_planner));
+  for (const Contender& c : comparison.contenders) {
+    if (c.problem != problem) continue;
+    named.emplace_back("", &c);
+    all.push_back(name_parts(c, comparison.problems[problem].kind.empty()));
+  }
   const auto is_common = [&](const std::string& part) {
     return all.size() > 1 && std::all_of(all.begin(), all.end(), [&](const auto& parts) {
              return std::find(parts.begin(), parts.end(), part) != parts.end();
            });
   };
-  std::vector<std::string> names;
-  for (const std::vector<std::string>& parts : all) {
+  for (std::size_t i = 0; i < all.size(); ++i) {
     std::vector<std::string> own;
-    std::copy_if(parts.begin(), parts.end(), std::back_inserter(own),
-                 [&](const auto& part) { return !is_common(part); });
-    names.push_back(fmt::format("{}", fmt::join(own.empty() ? parts : own, ", ")));
+    std::remove_copy_if(all[i].begin(), all[i].end(), std::back_inserter(own), is_common);
+    named[i].first = fmt::format("{}", fmt::join(own.empty() ? all[i] : own, ", "));
   }
-  return names;
+  return named;
 }
 
 std::vector<std::size_t> turns(std::size_t count, std::uint64_t round) {

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -100,9 +99,11 @@ std::optional<double> number_in_word(std::string_view word);
 /// "astar, sorted-array", "prm, bfs"; `with_planner` where searches of one graph are not all there is.
 std::string contender_name(const Contender& contender, bool with_planner);
 
-/// Names in one plot: what all of these have in common is left out. Where options were dealt out, they alone set a
-/// planner's contenders apart.
-std::vector<std::string> plot_names_of(std::span<const Contender* const> contenders, bool with_planner);
+using NamedContender = std::pair<std::string, const Contender*>;
+
+/// Those of a problem, in their order, with their names in one plot: what all of them have in common is left out. Where
+/// options were dealt out, they alone set a planner's contenders apart.
+std::vector<NamedContender> named_contenders(const Comparison& comparison, std::size_t problem);
 
 /// In the order in which they are met; the word's place among them.
 inline std::size_t add_once(std::vector<std::string>& words, const std::string& word) {
@@ -110,9 +111,6 @@ inline std::size_t add_once(std::vector<std::string>& words, const std::string& 
   if (place == words.size()) words.push_back(word);
   return place;
 }
-
-/// Those of a problem, in their order.
-std::vector<const Contender*> contenders_of(const Comparison& comparison, std::size_t problem);
 
 /// "samples 50, radius 2"
 std::string options_text(const Contender& contender);

@@ -105,12 +105,9 @@ std::vector<Vec2> solved_shares(const Contender& contender) {
 std::vector<Plot> share_plots(const Comparison& comparison) {
   std::vector<Plot> plots;
   for (std::size_t problem = 0; problem < comparison.problems.size(); ++problem) {
-    const bool planners = comparison.problems[problem].kind.empty();
     Plot plot = solved_plot(comparison.problems[problem]);
-    const std::vector<const Contender*> contenders = contenders_of(comparison, problem);
-    const std::vector<std::string> names = plot_names_of(contenders, planners);
-    for (std::size_t i = 0; i < contenders.size(); ++i) {
-      plot.series.push_back({names[i], solved_shares(*contenders[i])});
+    for (const auto& [name, contender] : named_contenders(comparison, problem)) {
+      plot.series.push_back({name, solved_shares(*contender)});
     }
     plots.push_back(std::move(plot));
   }
@@ -153,27 +150,29 @@ bool is_spread(const BoxPlot& plot) {
   return low > 0.0 && high > wide * low;
 }
 
+std::size_t contender_count(const Comparison& comparison, std::size_t problem) {
+  const auto is_its = [&](const Contender& c) { return c.problem == problem; };
+  return static_cast<std::size_t>(std::ranges::count_if(comparison.contenders, is_its));
+}
+
 /// Nothing where no contender's runs differ.
 std::optional<BoxPlot> box_plot(const Comparison& comparison, std::size_t problem, const BoxedFigure& figure) {
-  const bool planners = comparison.problems[problem].kind.empty();
   const bool is_metres = !metres_behind(comparison.problems[problem].unit).empty();
   BoxPlot plot{.title = fmt::format("{}: {}", comparison.problems[problem].source, figure.name),
                .label = std::string(figure.label).append(is_metres && !figure.is_time ? " (m)" : ""),
                .remarks = "solved",
                .text = figure.text};
   bool any_differ = false;
-  const std::vector<const Contender*> contenders = contenders_of(comparison, problem);
-  const std::vector<std::string> names = plot_names_of(contenders, planners);
-  for (std::size_t i = 0; i < contenders.size(); ++i) {
+  for (const auto& [name, contender] : named_contenders(comparison, problem)) {
     std::vector<double> values;
     std::size_t solved = 0;
-    for (const ComparedRun& run : contenders[i]->runs) {
+    for (const ComparedRun& run : contender->runs) {
       if (const auto value = figure.value(run)) values.push_back(*value);
       solved += run.solved() ? 1 : 0;
     }
     const std::string remark =
-        fmt::format("{} of {}", solved == 0 ? "none" : std::to_string(solved), contenders[i]->runs.size());
-    PlottedBox& box = plot.boxes.emplace_back(PlottedBox{names[i], remark, box_figures_of(std::move(values))});
+        fmt::format("{} of {}", solved == 0 ? "none" : std::to_string(solved), contender->runs.size());
+    PlottedBox& box = plot.boxes.emplace_back(PlottedBox{name, remark, box_figures_of(std::move(values))});
     any_differ =
         any_differ || (box.figures && (box.figures->low < box.figures->high || !box.figures->outliers.empty()));
   }
@@ -397,9 +396,9 @@ bool has_curve(const Contender& contender) {
 }
 
 /// Runs of planners that get better, and those that found nothing, take longer than their last path.
-CurveTimes times_of(const std::vector<const Contender*>& contenders) {
+CurveTimes times_of(const std::vector<NamedContender>& contenders) {
   CurveTimes times;
-  for (const Contender* c : contenders) {
+  for (const auto& [name, c] : contenders) {
     for (const ComparedRun& run : c->runs) {
       for (const Improvement& one : run.improvements) times.include(one.seconds);
       if (has_curve(*c) || run.improvements.empty()) times.end_s = std::max(times.end_s, run.time_s);
@@ -426,12 +425,12 @@ struct CostUnit {
 
 /// The best bound of all, since all are asked the same; where several clearances were dealt out they are not. A bound
 /// so far below that it would press all curves together is told, and the best path taken.
-CostUnit unit_of_costs(const std::vector<const Contender*>& contenders) {
+CostUnit unit_of_costs(const std::vector<NamedContender>& contenders) {
   constexpr double far = 2.0;
   double bound = 0.0;
   double best = never;
   bool is_one_question = true;
-  for (const Contender* c : contenders) {
+  for (const auto& [name, c] : contenders) {
     for (const auto& [option, word] : c->dealt) is_one_question = is_one_question && option != "clearance";
     for (const ComparedRun& run : c->runs) {
       bound = std::max(bound, run.lower_bound.value_or(0.0));
@@ -515,19 +514,18 @@ CostCurve cost_curve(const Contender& contender, double begin_s, double end_s) {
 std::vector<PlotSheet> curve_panels(const Comparison& comparison) {
   std::vector<PlotSheet> panels;
   for (std::size_t problem = 0; problem < comparison.problems.size(); ++problem) {
-    const std::vector<const Contender*> contenders = contenders_of(comparison, problem);
-    const std::vector<std::string> names = plot_names_of(contenders, true);
+    const std::vector<NamedContender> contenders = named_contenders(comparison, problem);
     const CurveTimes times = times_of(contenders);
     const CostUnit unit = unit_of_costs(contenders);
     Plot costs = cost_plot(comparison.problems[problem], unit);
     Plot solved = solved_plot(comparison.problems[problem]);
-    for (std::size_t i = 0; i < contenders.size(); ++i) {
-      CostCurve curve = cost_curve(*contenders[i], times.begin_s, times.end_s);
+    for (const auto& [name, contender] : contenders) {
+      CostCurve curve = cost_curve(*contender, times.begin_s, times.end_s);
       for (Vec2& p : curve.median) p.y /= unit.cost;
       for (Vec2& span : curve.quartiles) span = {span.x / unit.cost, span.y / unit.cost};
       costs.series.push_back(
-          {.name = names[i], .points = std::move(curve.median), .steps = true, .spans = std::move(curve.quartiles)});
-      solved.series.push_back({.name = names[i], .points = std::move(curve.solved), .steps = true});
+          {.name = name, .points = std::move(curve.median), .steps = true, .spans = std::move(curve.quartiles)});
+      solved.series.push_back({.name = name, .points = std::move(curve.solved), .steps = true});
     }
     costs.log_y = is_wide(costs);
     panels.push_back(sheet_of(costs));
@@ -579,7 +577,7 @@ std::optional<BoxFigures> box_figures_of(std::vector<double> values) {
 std::vector<PlotSheet> box_panels(const Comparison& comparison) {
   std::vector<PlotSheet> panels;
   for (std::size_t problem = 0; problem < comparison.problems.size(); ++problem) {
-    if (contenders_of(comparison, problem).size() > most_boxes) continue;
+    if (contender_count(comparison, problem) > most_boxes) continue;
     for (const BoxedFigure& figure : boxed_figures) {
       if (const auto plot = box_plot(comparison, problem, figure)) panels.push_back(sheet_of(*plot));
     }
@@ -588,9 +586,9 @@ std::vector<PlotSheet> box_panels(const Comparison& comparison) {
 }
 
 std::string note_on_box_plots(const Comparison& comparison) {
-  if (!sweep_tables(comparison).empty()) return {};
+  if (!sweep_curves(comparison).empty()) return {};
   for (std::size_t problem = 0; problem < comparison.problems.size(); ++problem) {
-    const std::size_t count = contenders_of(comparison, problem).size();
+    const std::size_t count = contender_count(comparison, problem);
     if (count > most_boxes) {
       return fmt::format("no box plots: they show at most {} planners or searches, and here are {}", most_boxes, count);
     }

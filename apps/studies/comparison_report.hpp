@@ -27,9 +27,6 @@ std::string comparison_csv(const Comparison& comparison);
 /// A line a run, with each option in a column of its own.
 std::string comparison_runs(const Comparison& comparison);
 
-/// Median times against size, a line a size, and where arrays and heaps cross; none without random graphs.
-std::vector<TextTable> sweep_tables(const Comparison& comparison);
-
 /// A line a path that was the best so far in its run, and one without cost for each run that found none.
 std::string comparison_curves(const Comparison& comparison);
 

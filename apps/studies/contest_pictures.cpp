@@ -207,14 +207,6 @@ struct NamedPath {
   std::vector<Vec2> points;  ///< arcs as chords
 };
 
-struct PathsFigure {
-  std::vector<NamedPath> paths = {};
-  const PlannedRoadmap<Vec2>* roadmap = nullptr;  ///< drawn below the paths; nullptr: none
-  std::optional<Vec2> start = {};
-  std::optional<Vec2> goal = {};
-  std::string subtitle = {};
-};
-
 /// Writes FOLDER/NAME. Returns what is drawn otherwise than usual, a line each that begins with the name. Throws
 /// WriteError, Stopped.
 std::vector<std::string> write_named(const std::string& folder, const std::string& name, const Picture& picture,
@@ -226,31 +218,27 @@ std::vector<std::string> write_named(const std::string& folder, const std::strin
 
 /// The same of one figure of several paths, each in a colour of its own with its name in the legend; where paths run
 /// along the same stretches they take turns in dashes. A map's scene has its border walls.
-std::vector<std::string> draw_paths(const std::string& folder, const std::string& name, const Scene& scene,
-                                    const PathsFigure& figure, const PictureOptions& look, const Execution& execution) {
+std::vector<std::string> draw_paths(const std::string& folder, const std::string& name, Picture picture,
+                                    const std::vector<NamedPath>& paths, const PictureOptions& look,
+                                    const Execution& execution) {
   std::vector<PictureLayer> layers;
-  if (scene.map) layers = cells_of_map(*scene.map, execution);
+  if (picture.scene.map) layers = cells_of_map(*picture.scene.map, execution);
   std::vector<std::vector<Vec2>> points;
-  for (const NamedPath& path : figure.paths) points.push_back(path.points);
+  for (const NamedPath& path : paths) points.push_back(path.points);
   const double extent = extent_of(points);
   const double dash = extent > 0.0 ? extent / 60.0 : 1.0;  // some sixty across all that is drawn
   std::vector<PolygonSet> lines = lines_side_by_side(points, dash, execution);
   for (std::size_t i = 0; i < lines.size(); ++i) {
     layers.push_back({.id = fmt::format("path_{}", i + 1),
-                      .label = figure.paths[i].label,
+                      .label = paths[i].label,
                       .part = Part::path,
                       .color = colors::series[i % colors::series.size()],
                       .width = 0.8 * widths::path,
                       .lines = std::move(lines[i])});
   }
-  const Picture picture{.scene = scene,
-                        .roadmap = figure.roadmap,
-                        .layers = layers,
-                        .start = figure.start,
-                        .goal = figure.goal,
-                        .title = title_of(scene),
-                        .subtitle = figure.subtitle,
-                        .description = description_of(scene)};
+  picture.layers = layers;
+  picture.title = title_of(picture.scene);
+  picture.description = description_of(picture.scene);
   return write_named(folder, name, picture, look, execution);
 }
 
@@ -286,10 +274,10 @@ class ContestPictures {
     write(unused(file_name(contender.planner + " " + said)), title, picture_of(scene_, drawing));
     if (drawing.path.size() > 1) {  // an arm's is in joint space
       const std::string label = said.empty() ? contender.planner : contender.planner + ", " + said;
-      paths_.paths.push_back({fmt::format("{}: length {}", label, human_number(run != nullptr ? run->length : 0.0)),
-                              without_arcs(drawing.path, drawing.path_turns)});
-      paths_.start = drawing.start;
-      paths_.goal = drawing.goal;
+      paths_.push_back({fmt::format("{}: length {}", label, human_number(run != nullptr ? run->length : 0.0)),
+                        without_arcs(drawing.path, drawing.path_turns)});
+      overview_.start = drawing.start;
+      overview_.goal = drawing.goal;
     }
     for (const DrawingPage& page : drawing.pages) {
       const std::string name = file_name(contender.planner) + "_" + page.id;
@@ -297,14 +285,14 @@ class ContestPictures {
       write(name, title_of(scene_) + ": " + page.id, picture_of(scene_, drawing, page));
     }
   }
-  /// The paths of all contenders in one figure.
-  void draw_paths() {
-    if (paths_.paths.size() < 2) return;
-    paths_.subtitle = fmt::format("{}\nof each planner the path of median length", description_of(scene_));
-    keep(studies::draw_paths(folder_, unused("paths") + ".svg", scene_, paths_, options_.look, execution_));
+  /// The paths of all contenders in one figure. Returns what was drawn otherwise than usual, of all pictures.
+  std::vector<std::string> finish() {
+    if (paths_.size() > 1) {
+      overview_.subtitle = fmt::format("{}\nof each planner the path of median length", description_of(scene_));
+      keep(draw_paths(folder_, unused("paths") + ".svg", overview_, paths_, options_.look, execution_));
+    }
+    return std::move(notes_);
   }
-  /// What was drawn otherwise than usual.
-  std::vector<std::string> take_notes() { return std::move(notes_); }
 
  private:
   std::string unused(const std::string& wanted) {
@@ -324,7 +312,8 @@ class ContestPictures {
   const std::string& folder_;
   const Execution& execution_;
   std::set<std::string> names_;
-  PathsFigure paths_;
+  std::vector<NamedPath> paths_;
+  Picture overview_{.scene = scene_};
   std::vector<std::string> notes_;
 };
 
@@ -389,8 +378,7 @@ std::vector<std::string> draw_contest(const Scene& scene, const PlannerContestOp
     execution.check();
     pictures.draw(comparison.contenders[i], options.contenders[i]);
   }
-  pictures.draw_paths();
-  return pictures.take_notes();
+  return pictures.finish();
 }
 
 std::string file_name(std::string_view text, char between) {
@@ -417,19 +405,21 @@ std::vector<std::string> draw_searches(const Scene& world, const SearchGraph& gr
   add_map_walls(scene, execution);
   PlannedRoadmap<Vec2> roadmap{.states = {}, .graph = graph.graph, .search_tree = {}};
   for (const Vec2 p : graph.at) roadmap.states.push_back(p);
-  PathsFigure figure{.roadmap = &roadmap,
-                     .start = graph.at[graph.start],
-                     .goal = graph.at[graph.goal],
-                     .subtitle = fmt::format("{}\ngraph of {}: {}, {}", description_of(scene), graph.kind,
-                                             counted(graph.graph.vertex_count(), "vertex", "vertices"),
-                                             counted(graph.graph.edge_count(), "edge", "edges"))};
+  Picture picture{.scene = scene,
+                  .roadmap = &roadmap,
+                  .start = graph.at[graph.start],
+                  .goal = graph.at[graph.goal],
+                  .subtitle = fmt::format("{}\ngraph of {}: {}, {}", description_of(scene), graph.kind,
+                                          counted(graph.graph.vertex_count(), "vertex", "vertices"),
+                                          counted(graph.graph.edge_count(), "edge", "edges"))};
   const std::vector<FoundPath> all = found_paths(graph, options, execution);
+  std::vector<NamedPath> paths;
   for (const FoundPath& found : all) {
-    NamedPath& path = figure.paths.emplace_back(NamedPath{label_of(found, all, graph), {}});
+    NamedPath& path = paths.emplace_back(NamedPath{label_of(found, all, graph), {}});
     for (const VertexId v : found.path) path.points.push_back(graph.at[v]);
   }
-  if (all.empty()) figure.subtitle += "; no search found a path";
-  return draw_paths(folder, "searches.svg", scene, figure, look, execution);
+  if (all.empty()) picture.subtitle += "; no search found a path";
+  return draw_paths(folder, "searches.svg", picture, paths, look, execution);
 }
 
 }  // namespace warren::studies

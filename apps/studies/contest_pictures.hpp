@@ -12,7 +12,6 @@
 #include "apps/studies/comparison.hpp"
 #include "apps/studies/planner_contest.hpp"
 #include "apps/studies/search_contest.hpp"
-#include "apps/studies/search_graph.hpp"
 #include "core/base/types.hpp"
 #include "core/plane/polygon.hpp"
 #include "core/run/execution.hpp"

@@ -371,20 +371,6 @@ void add_limit(std::string& text, const LargestOptions& options, const LargestRe
   }
 }
 
-void add_best(Json& json, const LargestResult& result) {
-  if (result.best.empty()) {
-    for (const char* key : {"rows", "cols", "cells", "solve_s"}) json[key] = nullptr;
-    json["verified"] = false;
-    return;
-  }
-  const MazeTrial& median = median_trial(result);
-  json["rows"] = median.rows;
-  json["cols"] = median.cols;
-  json["cells"] = static_cast<std::uint64_t>(median.cells());
-  json["solve_s"] = median.solve_s;
-  json["verified"] = std::all_of(result.best.begin(), result.best.end(), [](const auto& t) { return t.verified; });
-}
-
 /// The maze's seeds at the largest size, spread of their times, rate, memory a cell.
 void add_figures(Json& json, const LargestResult& result) {
   if (result.best.empty()) return;
@@ -448,12 +434,16 @@ std::string largest_summary(const LargestOptions& options, const LargestResult& 
 
 std::string largest_json(const LargestOptions& options, const LargestResult& result) {
   Json json{{"schema", "warren.largest/1"}, {"warren_version", WARREN_VERSION}, {"budget_s", options.budget_s}};
-  add_best(json, result);
-  const MazeTrial* shown =
-      !result.best.empty() ? &median_trial(result) : (result.trials.empty() ? nullptr : &result.trials.back());
-  for (const char* key : {"planner", "sampler", "threads", "peak_memory_bytes"}) {
-    json[key] = shown == nullptr ? Json(nullptr) : trial_json(*shown)[key];
-  }
+  const auto figure = [](const MazeTrial* trial, const char* key) {
+    return trial == nullptr ? Json(nullptr) : trial_json(*trial)[key];
+  };
+  const MazeTrial* const best = result.best.empty() ? nullptr : &median_trial(result);
+  for (const char* key : {"rows", "cols"}) json[key] = figure(best, key);
+  json["cells"] = best == nullptr ? Json(nullptr) : Json(static_cast<std::uint64_t>(best->cells()));
+  json["solve_s"] = figure(best, "solve_s");
+  json["verified"] = best != nullptr && std::ranges::all_of(result.best, &MazeTrial::verified);
+  const MazeTrial* const shown = best == nullptr && !result.trials.empty() ? &result.trials.back() : best;
+  for (const char* key : {"planner", "sampler", "threads", "peak_memory_bytes"}) json[key] = figure(shown, key);
   json["bfs_funnel_s"] = result.bar ? Json(result.bar->seconds) : Json(nullptr);
   json["bfs_funnel_length"] = result.bar ? Json(result.bar->length) : Json(nullptr);
   json["algorithm"] = name_of(options.maze.algorithm);

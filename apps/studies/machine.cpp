@@ -205,8 +205,7 @@ RunCounts RunCounters::read() const {
 }
 
 double arithmetic_per_second(const Execution& execution) {
-  Execution own = execution;
-  own.progress = nullptr;
+  Execution own = execution.quiet();
   own.trace = nullptr;
   struct Part {
     std::uint64_t result = 0;

@@ -72,14 +72,12 @@ struct PerfEvent {
 };
 
 /// Counts for this thread and all threads that it or they start from now on: make it before the first parallel loop.
-class RunCounters {
+class RunCounters : NotCopied {
  public:
   RunCounters();
   /// These events instead of RunCounts::hardware_names.
   explicit RunCounters(std::span<const PerfEvent> events);
   ~RunCounters();
-  RunCounters(const RunCounters&) = delete;
-  RunCounters& operator=(const RunCounters&) = delete;
 
   RunCounts read() const;
   /// Why none of the events is counted, as the system says it; empty if one is.

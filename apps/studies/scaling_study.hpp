@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sizes x seeds x planners x threads, each solved several times: the runs behind `warren scale`, what they say, and how
-// it is told (scaling_report.cpp).
+// it is told.
 //
 // A maze is generated once; its runs are interleaved (all planners and thread counts, then all of them again), so that
 // whatever else the machine does meanwhile meets every one of them alike. The first round of a size is also the one
@@ -10,7 +10,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -55,20 +54,6 @@ struct ScalingResult {
 ScalingResult run_scaling_study(const ScalingOptions& options, const Execution& execution,
                                 const std::function<void(std::string_view)>& note);
 
-/// The items in groups of one key each; groups and their items are in the order in which they are met.
-template <class Items, class KeyOf>
-auto in_groups(const Items& items, const KeyOf& key_of) {
-  using Item = typename Items::value_type;
-  std::map<decltype(key_of(items.front())), std::size_t> places;
-  std::vector<std::vector<Item>> groups;
-  for (const Item& item : items) {
-    const auto [at, is_new] = places.try_emplace(key_of(item), groups.size());
-    if (is_new) groups.emplace_back();
-    groups[at->second].push_back(item);
-  }
-  return groups;
-}
-
 /// All runs of one size, planner and thread count that were solved.
 struct ScalingRow {
   MazeTrial fastest;  ///< the run of least solve_s; its `seconds` are each stage's least of all runs
@@ -90,15 +75,6 @@ std::optional<double> common_exponent(std::span<const std::vector<Vec2>> groups)
 /// Exponents of time against cells, by stage, "solve" last: of each stage's least times in these rows, one level a
 /// planner and thread count. Stages below 20 us are left out: there the clock and the start of threads are measured.
 std::vector<std::pair<std::string, double>> stage_exponents(std::span<const ScalingRow> rows);
-
-/// Names of all stages, in the order of the work.
-std::vector<std::string> stage_names();
-/// Of the links of the chain that these stages are sums of.
-std::vector<std::string> link_names();
-/// Both, and "solve": whatever seconds_of() knows.
-std::vector<std::string> all_stages();
-/// The seconds of one stage, of one link, or of "solve".
-double seconds_of(const MazeTrial& trial, std::string_view stage);
 
 /// What more threads gain, run against run: each run is held against the one of fewest threads of the same repeat, and
 /// beside it stands what arithmetic in registers gained in the same moment (apps/studies/machine.hpp). Medians over the

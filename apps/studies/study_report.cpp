@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <span>
-#include <string_view>
 
 #include "pictures/formats/markup.hpp"
 
@@ -64,17 +63,6 @@ std::string paragraphs(const std::vector<std::string>& all) {
   return text;
 }
 
-std::string line_of(const std::vector<std::string>& cells, const std::vector<std::size_t>& widths, std::size_t words) {
-  std::string line;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (widths[i] == 0) continue;
-    line += line.empty() ? "" : "  ";
-    line += i < words ? fmt::format("{:<{}}", cells[i], widths[i]) : fmt::format("{:>{}}", cells[i], widths[i]);
-  }
-  line.erase(line.find_last_not_of(' ') + 1);
-  return line;
-}
-
 /// With a backslash before each of `special`.
 std::string escaped(std::string_view text, std::string_view special) {
   std::string out;
@@ -103,6 +91,10 @@ std::string joined_cells(const std::vector<std::string>& cells, std::string_view
 }
 
 }  // namespace
+
+std::string named_line(const Palette& palette, std::string_view name, std::string_view what) {
+  return fmt::format("{}{}\n", palette.faint(fmt::format("{:<11}", name)), what);
+}
 
 std::string ReportPage::html() const {
   static constexpr std::string_view script = "report.js";
@@ -140,9 +132,19 @@ std::string TextTable::latex() const {
 }
 
 std::string TextTable::text(const Palette& palette) const {
-  const std::vector<std::size_t> widths = widths_of(*this);
-  std::string text = palette.strong(line_of(head, widths, words)) + '\n';
-  for (const auto& row : rows) text += line_of(row, widths, words) + '\n';
+  const TextTable table = without_empty_columns(*this);
+  const std::vector<std::size_t> widths = widths_of(table);
+  const auto line_of = [&](const std::vector<std::string>& cells) {
+    std::string line;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      line += i == 0 ? "" : "  ";
+      line += i < table.words ? fmt::format("{:<{}}", cells[i], widths[i]) : fmt::format("{:>{}}", cells[i], widths[i]);
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    return line;
+  };
+  std::string text = palette.strong(line_of(table.head)) + '\n';
+  for (const auto& row : table.rows) text += line_of(row) + '\n';
   return text;
 }
 

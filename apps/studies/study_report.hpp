@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scenes/text/human_units.hpp"
@@ -24,6 +25,9 @@ struct TextTable {
   std::string markdown() const;
   std::string latex() const;
 };
+
+/// A line with its end below a table: its name, faint and eleven wide, and what it says.
+std::string named_line(const Palette& palette, std::string_view name, std::string_view what);
 
 /// All words are plain text.
 struct ReportPage {

@@ -26,28 +26,15 @@ class LineGroup {
 
   /// Before the group begins: what its lines are to cover; a point twice is a dot.
   void measure(std::span<const Vec2> chain) {
-    constexpr std::size_t chains_per_poll = 1 << 14;
-    if (++drawn_ % chains_per_poll == 0) execution_.check();
+    execution_.poll(++drawn_);
     for (std::size_t i = 1; i < chain.size(); ++i) {
       ink_ += pen_.width * (page_.view.scale * distance(chain[i - 1], chain[i]) + pen_.width);
     }
   }
-  /// Lets the pen cover no more than a share of the page with what was measured.
-  void thin_out() {
-    constexpr double most_cover = 0.3;
-    constexpr double least_width = 0.4;
-    constexpr double least_opacity = 0.25;
-    constexpr double visibly = 0.9;
-    const double allowed = most_cover * page_.data.width() * page_.data.height();
-    if (!(ink_ > allowed)) return;
-    const double share = std::sqrt(allowed / ink_);
-    thin_ = share < visibly;
-    pen_.width = std::min(pen_.width, std::max(pen_.width * share, least_width));
-    pen_.opacity *= std::max(share, least_opacity);
-  }
 
-  /// points: how many will follow, at least.
+  /// points: how many will follow, at least. Where much was measured, what follows is thinner and fainter.
   void begin(std::string_view id, std::string_view label, std::size_t points) {
+    thin_out();
     surface_.begin_group(id, label, pen_);
     drawn_ = 0;
     if (!surface_.takes_as_mask(points)) return;
@@ -99,6 +86,19 @@ class LineGroup {
   bool is_mask() const { return mask_.has_value(); }
 
  private:
+  /// Lets the pen cover no more than a share of the page with what was measured.
+  void thin_out() {
+    constexpr double most_cover = 0.3;
+    constexpr double least_width = 0.4;
+    constexpr double least_opacity = 0.25;
+    constexpr double visibly = 0.9;
+    const double allowed = most_cover * page_.data.width() * page_.data.height();
+    if (!(ink_ > allowed)) return;
+    const double share = std::sqrt(allowed / ink_);
+    thin_ = share < visibly;
+    pen_.width = std::min(pen_.width, std::max(pen_.width * share, least_width));
+    pen_.opacity *= std::max(share, least_opacity);
+  }
   Vec2 in_mask(Vec2 p) const { return density_ * (page_.view.at(p) - page_.data.min); }
   void count() {
     constexpr std::size_t lines_per_poll = 64;  // each may run across the whole picture
@@ -150,6 +150,7 @@ class Painter {
   }
 
  private:
+  LineGroup group_with(const Pen& pen) const { return {surface_, page_, execution_, pen}; }
   /// Ends the group, and keeps what is to be said of it.
   void end(LineGroup& group, const std::string& name) {
     group.end();
@@ -173,8 +174,8 @@ class Painter {
   void polygons() {
     const std::vector<ScenePolygon>& polygons = picture_.scene.polygons;
     if (polygons.empty()) return;
-    LineGroup group(surface_, page_, execution_,
-                    {.stroke = colors::outline, .width = width(widths::outline, 0.4), .fill = colors::polygon});
+    LineGroup group =
+        group_with({.stroke = colors::outline, .width = width(widths::outline, 0.4), .fill = colors::polygon});
     std::size_t corners = 0;
     for (const ScenePolygon& polygon : polygons) corners += polygon.corners.size();
     group.begin("polygons", "obstacles", corners);
@@ -183,15 +184,13 @@ class Painter {
   }
   void layer(const PictureLayer& layer) {
     const bool has_lines = layer.width > 0.0;
-    LineGroup group(surface_, page_, execution_,
-                    {.stroke = has_lines ? std::optional(layer.color) : std::nullopt,
-                     .width = width(layer.width, 0.35),
-                     .fill = layer.fill,
-                     .opacity = layer.opacity,
-                     .crisp = layer.fill && layer.part == Part::world});
+    LineGroup group = group_with({.stroke = has_lines ? std::optional(layer.color) : std::nullopt,
+                                  .width = width(layer.width, 0.35),
+                                  .fill = layer.fill,
+                                  .opacity = layer.opacity,
+                                  .crisp = layer.fill && layer.part == Part::world});
     if ((layer.part == Part::roadmap || layer.part == Part::search) && !layer.fill) {
       for (std::size_t i = 0; i < layer.lines.size(); ++i) group.measure(layer.lines[i]);
-      group.thin_out();
     }
     group.begin(layer.id, layer.label, layer.lines.corners.size());
     const bool is_cut = page_.canvas.whole && layer.part == Part::world;  // cells of a map that is not shown wholly
@@ -214,7 +213,7 @@ class Painter {
     // Thin walls are drawn stronger than their width, or a large maze would fade; tiny cells stay a light texture.
     constexpr double faint = 0.3;
     const double least = std::clamp(faint * unit, 0.02, 1.0) / page_.density();
-    LineGroup group(surface_, page_, execution_, {.stroke = colors::wall, .width = width(widths::wall, least)});
+    LineGroup group = group_with({.stroke = colors::wall, .width = width(widths::wall, least)});
     group.begin("walls", "walls", picture_.scene.walls.size());
     std::optional<Segment> run;
     picture_.scene.walls.visit([&](auto all) {
@@ -245,11 +244,10 @@ class Painter {
   }
   void edges(const std::vector<std::uint8_t>& color) {
     const PlannedRoadmap<Vec2>& roadmap = *picture_.roadmap;
-    LineGroup group(surface_, page_, execution_, {.stroke = colors::components[0], .width = width(widths::edge, 0.3)});
+    LineGroup group = group_with({.stroke = colors::components[0], .width = width(widths::edge, 0.3)});
     roadmap.graph.for_each_edge([&](VertexId v, VertexId w) {
       group.measure(std::array{roadmap.states[v], roadmap.states[w]});
     });
-    group.thin_out();
     group.begin("edges", "roadmap edges", roadmap.graph.edge_count());
     for (std::size_t c = 0; c < colors::components.size(); ++c) {
       if (std::find(color.begin(), color.end(), c) == color.end()) continue;
@@ -263,15 +261,13 @@ class Painter {
 
   void search_tree() {
     const PlannedRoadmap<Vec2>& roadmap = *picture_.roadmap;
-    LineGroup group(surface_, page_, execution_,
-                    {.stroke = colors::search_tree, .width = width(widths::search_tree, 0.4)});
+    LineGroup group = group_with({.stroke = colors::search_tree, .width = width(widths::search_tree, 0.4)});
     const auto visit = [&](const auto& take) {
       for (const Edge& edge : roadmap.search_tree) {
         if (edge.to != no_vertex) take(roadmap.states[edge.from], roadmap.states[edge.to]);
       }
     };
     visit([&](Vec2 a, Vec2 b) { group.measure(std::array{a, b}); });
-    group.thin_out();
     group.begin("search_tree", "search tree", roadmap.search_tree.size());
     visit([&](Vec2 a, Vec2 b) { group.segment(a, b); });
     end(group, "search tree");
@@ -280,10 +276,8 @@ class Painter {
   /// A line of length zero with round ends is a dot.
   void milestones(const std::vector<std::uint8_t>& color) {
     const PlannedRoadmap<Vec2>& roadmap = *picture_.roadmap;
-    LineGroup group(surface_, page_, execution_,
-                    {.stroke = colors::components[0], .width = width(widths::milestone, 0.8)});
+    LineGroup group = group_with({.stroke = colors::components[0], .width = width(widths::milestone, 0.8)});
     for (const Vec2 p : roadmap.states) group.measure(std::array{p, p});
-    group.thin_out();
     group.begin("milestones", "milestones", color.size());
     for (std::size_t c = 0; c < colors::components.size(); ++c) {
       group.take_color(colors::components[c]);
@@ -310,7 +304,7 @@ class Painter {
     const std::span<const Vec2> shown = seen.empty() ? picture_.path : std::span<const Vec2>(seen);
     const Pen line{.stroke = colors::path, .width = width(widths::path, least_width)};
     if (surface_.takes_as_mask(shown.size())) {
-      LineGroup group(surface_, page_, execution_, line);
+      LineGroup group = group_with(line);
       group.begin("path", picture_.path_label, shown.size());
       group.chain(shown, picture_.path_turns, false);
       return end(group, picture_.path_label);

@@ -102,17 +102,14 @@ void cover_inside(const PolygonSet& outlines, std::size_t columns, std::size_t a
     return static_cast<std::size_t>(std::clamp(k, 0.0, static_cast<double>(crossings.size())));
   };
   std::size_t sides = 0;
-  for (std::size_t i = 0; i < outlines.size(); ++i) {
-    Vec2 a = outlines[i].back();
-    for (const Vec2 b : outlines[i]) {
-      if (++sides % 256 == 0) execution.check();
-      const auto [upper, lower] = a.y < b.y ? std::pair(a, b) : std::pair(b, a);
-      for (std::size_t k = sub_row(upper.y); k < sub_row(lower.y); ++k) {
-        crossings[k].push_back(upper.x + (lower.x - upper.x) / (lower.y - upper.y) * (height_of(k) - upper.y));
-      }
-      a = b;
+  const auto cross_rows = [&](Vec2 a, Vec2 b) {
+    if (++sides % 256 == 0) execution.check();
+    const auto [upper, lower] = a.y < b.y ? std::pair(a, b) : std::pair(b, a);
+    for (std::size_t k = sub_row(upper.y); k < sub_row(lower.y); ++k) {
+      crossings[k].push_back(upper.x + (lower.x - upper.x) / (lower.y - upper.y) * (height_of(k) - upper.y));
     }
-  }
+  };
+  for (std::size_t i = 0; i < outlines.size(); ++i) for_each_side(outlines[i], cross_rows);
   std::vector<double> shares(columns + 1);
   for (std::size_t k = 0; k < rows; ++k) {
     if (k % 64 == 63) execution.check();
@@ -195,6 +192,20 @@ ImagePalette palette_of(const Image& image, const Execution& execution) {
         has_room ? static_cast<std::uint8_t>(palette.colors.size() - 1) : nearest(all[box].mean(), palette.colors);
   }
   return palette;
+}
+
+/// A PNG with the palette that is given: fill_row(y, row) sets the numbers of a row's colours in it.
+template <class Pixels, class FillRow>
+void write_indexed(PngRows png, const Pixels& pixels, const FillRow& fill_row, const Execution& execution,
+                   const Write& write) {
+  std::vector<std::uint8_t> row(pixels.width());
+  png.width = static_cast<std::uint32_t>(pixels.width());
+  png.height = static_cast<std::uint32_t>(pixels.height());
+  png.row = [&](std::size_t y) {
+    fill_row(y, row);
+    return static_cast<const std::uint8_t*>(row.data());
+  };
+  write_png(png, execution, write);
 }
 
 // The picture in pixels, drawn by our own rasteriser; its words are outlines, filled.
@@ -342,37 +353,23 @@ void Mask::fill(const PolygonSet& outlines, double opacity, const Execution& exe
 
 void write_png_file(const Image& image, double dpi, const Execution& execution, const Write& write) {
   const ImagePalette palette = palette_of(image, execution);
-  std::vector<std::uint8_t> row(image.width());
-  write_png({.width = static_cast<std::uint32_t>(image.width()),
-             .height = static_cast<std::uint32_t>(image.height()),
-             .palette = palette.colors,
-             .dpi = dpi,
-             .row =
-                 [&](std::size_t y) {
-                   const std::uint8_t* pixels = image.row(y);
-                   for (std::size_t x = 0; x < row.size(); ++x) row[x] = palette.of_box[box_of_pixel(pixels + 3 * x)];
-                   return static_cast<const std::uint8_t*>(row.data());
-                 }},
-            execution, write);
+  const auto fill_row = [&](std::size_t y, std::vector<std::uint8_t>& row) {
+    const std::uint8_t* pixels = image.row(y);
+    for (std::size_t x = 0; x < row.size(); ++x) row[x] = palette.of_box[box_of_pixel(pixels + 3 * x)];
+  };
+  write_indexed({.palette = palette.colors, .dpi = dpi, .row = {}}, image, fill_row, execution, write);
 }
 
 void write_png_file(const Mask& mask, Rgb color, const Execution& execution, const Write& write) {
   constexpr std::size_t shades = 16;
   std::vector<std::uint8_t> alphas(shades);
   for (std::size_t i = 0; i < shades; ++i) alphas[i] = static_cast<std::uint8_t>(17 * i);
-  std::vector<std::uint8_t> row(mask.width());
-  write_png({.width = static_cast<std::uint32_t>(mask.width()),
-             .height = static_cast<std::uint32_t>(mask.height()),
-             .palette = std::vector<Color>(shades, Color{color.red, color.green, color.blue}),
-             .alphas = alphas,
-             .row =
-                 [&](std::size_t y) {
-                   const std::uint8_t* pixels = mask.pixels().data() + y * mask.width();
-                   for (std::size_t x = 0; x < row.size(); ++x)
-                     row[x] = static_cast<std::uint8_t>((pixels[x] + 8) / 17);
-                   return static_cast<const std::uint8_t*>(row.data());
-                 }},
-            execution, write);
+  const std::vector<Color> palette(shades, Color{color.red, color.green, color.blue});
+  const auto fill_row = [&](std::size_t y, std::vector<std::uint8_t>& row) {
+    const std::uint8_t* pixels = mask.pixels().data() + y * mask.width();
+    for (std::size_t x = 0; x < row.size(); ++x) row[x] = static_cast<std::uint8_t>((pixels[x] + 8) / 17);
+  };
+  write_indexed({.palette = palette, .alphas = alphas, .row = {}}, mask, fill_row, execution, write);
 }
 
 std::vector<std::string> draw_png(const Page& page, const DrawOn& draw, const Execution& execution,

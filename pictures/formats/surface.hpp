@@ -32,12 +32,9 @@ struct Pen {
 
 /// Groups are not nested. Within enter_world() and leave_world() points are the world's, else the page's; widths are
 /// always the page's.
-class Surface {
+class Surface : NotCopied {
  public:
-  Surface() = default;
   virtual ~Surface() = default;
-  Surface(const Surface&) = delete;
-  Surface& operator=(const Surface&) = delete;
 
   virtual void enter_world() { in_world_ = true; }
   virtual void leave_world() { in_world_ = false; }

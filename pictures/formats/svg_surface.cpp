@@ -137,11 +137,8 @@ class SvgSurface : public Surface {
   }
 
   void text(const PlacedText& text) override {
-    constexpr std::string_view anchors[] = {"start", "middle", "end"};
     std::string more;
-    if (text.anchor != Anchor::start) {
-      more = fmt::format(" text-anchor=\"{}\"", anchors[static_cast<std::size_t>(text.anchor)]);
-    }
+    if (text.anchor != Anchor::start) more = fmt::format(" text-anchor=\"{}\"", name_of(text.anchor));
     if (text.bold) more += " font-weight=\"bold\"";
     if (text.upright) more += fmt::format(" transform=\"rotate(-90 {:.1f} {:.1f})\"", text.at.x, text.at.y);
     text_ += fmt::format("\n<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{:.4g}\"{}>{}</text>", text.at.x, text.at.y,
@@ -159,18 +156,15 @@ class SvgSurface : public Surface {
     const double size = length(1.0);
     const Vec2 corner = at({(page_.data.min.x - page_.view.origin.x) / page_.view.scale,
                             (page_.view.origin.y - page_.data.min.y) / page_.view.scale});
-    text_ += fmt::format(
-        "\n<image transform=\"matrix({0:.9g} 0 0 {1:.9g} {2:.9g} {3:.9g})\" width=\"{4:.9g}\" height=\"{5:.9g}\" "
-        "preserveAspectRatio=\"none\" xlink:href=\"data:image/png;base64,",
-        size, -size, corner.x, corner.y, page_.data.width(), page_.data.height());
+    text_ +=
+        fmt::format("\n<image transform=\"matrix({:.9g} 0 0 {:.9g} {:.9g} {:.9g})\" width=\"{:.9g}\" height=\"{:.9g}\"",
+                    size, -size, corner.x, corner.y, page_.data.width(), page_.data.height());
     png([&](const Write& write) { write_png_file(mask, color, execution_, write); });
   }
   double image_density() const override { return density_of_images; }
   void image(const Image& image, const Box& at) override {
-    text_ += fmt::format(
-        "\n<image x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" preserveAspectRatio=\"none\" "
-        "xlink:href=\"data:image/png;base64,",
-        at.min.x, at.min.y, at.width(), at.height());
+    text_ += fmt::format("\n<image x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\"", at.min.x, at.min.y,
+                         at.width(), at.height());
     constexpr double points_an_inch = 96.0;
     png([&](const Write& write) { write_png_file(image, density_of_images * points_an_inch, execution_, write); });
   }
@@ -241,8 +235,9 @@ class SvgSurface : public Surface {
     written_ += text_.size();
     text_.clear();
   }
-  /// The end of an <image> that is open up to its bytes.
+  /// The end of an <image> that is open: how it fills its place, and its bytes.
   void png(const std::function<void(const Write&)>& write_bytes) {
+    text_ += " preserveAspectRatio=\"none\" xlink:href=\"data:image/png;base64,";
     flush();
     Base64 base64(write_);
     write_bytes([&](std::string_view bytes) {
@@ -344,22 +339,19 @@ std::string svg_moving_arm(const MovingArm& arm, double width, const std::functi
   const std::string moments = fmt::format("{:.6f}", fmt::join(arm.moments, ";"));
   std::string group = "<g id=\"arm\" visibility=\"hidden\"><set attributeName=\"visibility\" to=\"visible\"/>\n";
   for (const Projection& view : arm.views) {
-    std::string places;
-    std::string first;
+    std::vector<std::string> places;
     for (const std::vector<Vec3>& spine : arm.spines) {
-      std::string points;
+      std::string& points = places.emplace_back();
       for (const Vec3& end : spine) {
         const Vec2 p = at(view.at(end));
         points += fmt::format("{}{:.3f},{:.3f}", points.empty() ? "" : " ", p.x, p.y);
       }
-      places += (places.empty() ? "" : ";") + points;
-      if (first.empty()) first = points;
     }
     group += fmt::format(
         "<polyline points=\"{}\" fill=\"none\" stroke=\"#e11d48\" stroke-opacity=\"0.55\" "
         "stroke-width=\"{:.3f}\" stroke-linecap=\"round\" stroke-linejoin=\"round\"><animate "
         "attributeName=\"points\" {} calcMode=\"linear\" keyTimes=\"{}\" values=\"{}\"/></polyline>\n",
-        first, width, duration, moments, places);
+        places.front(), width, duration, moments, fmt::join(places, ";"));
   }
   return group + "</g>\n";
 }

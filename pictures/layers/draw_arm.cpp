@@ -223,14 +223,12 @@ class ArmPath {
 /// The obstacles alone, seen from the front, the right and above, in `box`. low, high: of all that is to be seen.
 SolidView solids_of(const std::vector<Shapes>& obstacles, const Box& box, const Vec3& low, const Vec3& high,
                     const Execution& execution) {
-  constexpr double azimuth_rad = -0.3 * std::numbers::pi;
-  constexpr double rise_rad = 0.13 * std::numbers::pi;
   constexpr double floor_a_reach = 1.3;
-  SolidView view;
-  view.box = box;
-  view.azimuth_rad = azimuth_rad;
-  view.rise_rad = rise_rad;
-  view.target = 0.5 * (low + high);
+  SolidView view{.box = box,
+                 .target = 0.5 * (low + high),
+                 .azimuth_rad = -0.3 * std::numbers::pi,
+                 .rise_rad = 0.13 * std::numbers::pi,
+                 .floor = Vec3::Zero()};
   double reach = 0.0;
   const auto include = [&](const Vec3& p, double radius) {
     reach = std::max(reach, (p - view.target).norm() + radius);
@@ -291,8 +289,7 @@ std::vector<Vec2> outline_of(const Projection& view, const Shapes& shapes) {
     for_each_point(s, [&](const Vec3& p, double radius) {
       const Vec2 at = view.at(p);
       if (!(radius > 0.0)) return points.push_back(at);
-      const std::vector<Vec2> circle = circle_outline(at, radius, 64);
-      points.insert(points.end(), circle.begin(), circle.end());
+      for (const Vec2 corner : circle_outline(at, radius, 64)) points.push_back(corner);
     });
   }
   return convex_hull(std::move(points));
@@ -335,13 +332,12 @@ class ArmDrawing {
   /// Where the tool is at these, in each view, instead of its trace.
   std::vector<PictureLayer> places(std::span<const Vec3> tools, std::span<const ToolLines> lines) const {
     std::vector<PictureLayer> layers;
-    constexpr std::size_t lines_a_poll = 1 << 12;
     for (const ToolLines& some : lines) {
       PictureLayer& layer = layers.emplace_back(
           PictureLayer{.id = some.id, .label = some.label, .color = some.color, .width = some.width});
       for (const Projection& view : views_) {
         for (std::size_t i = 0; i < some.edges.size(); ++i) {
-          if (i % lines_a_poll == 0) execution_.check();
+          execution_.poll(i);
           layer.lines.add(std::array{view.at(tools[some.edges[i].from]), view.at(tools[some.edges[i].to])});
         }
       }
@@ -510,10 +506,6 @@ void add_places(SolidView& view, std::span<const Vec3> tools, std::span<const To
   for (const ToolLines& some : lines) count += some.edges.size();
   execution.reserve(2 * (view.solids.size() + count) * sizeof(SeenSolid));  // two arrays while the solids move
   view.solids.reserve(view.solids.size() + count);
-  const auto poll = [&](std::size_t i) {
-    constexpr std::size_t solids_a_poll = 1 << 12;
-    if (i % solids_a_poll == 0) execution.check();
-  };
   const auto add = [&](const Vec3& a, const Vec3& b, double radius, Rgb color, double share) {
     constexpr double least_share = 0.6;  // paler ones would be grey in their own shade
     const auto percent = static_cast<unsigned>(100.0 * std::max(share, least_share));
@@ -524,13 +516,13 @@ void add_places(SolidView& view, std::span<const Vec3> tools, std::span<const To
     constexpr double least_thread = 0.0008;  // some pixels still see it
     double ink = 0.0;
     for (std::size_t i = 0; i < some.edges.size(); ++i) {
-      poll(i);
+      execution.poll(i);
       ink += 2.0 * thread * (tools[some.edges[i].to] - tools[some.edges[i].from]).norm() / view.reach;
     }
     const double share = thinned(ink);
     view.is_thinned = view.is_thinned || share < 1.0;
     for (std::size_t i = 0; i < some.edges.size(); ++i) {
-      poll(i);
+      execution.poll(i);
       add(tools[some.edges[i].from], tools[some.edges[i].to], std::max(share * thread, least_thread), some.color,
           share);
     }
@@ -539,7 +531,7 @@ void add_places(SolidView& view, std::span<const Vec3> tools, std::span<const To
   constexpr double least_bead = 0.002;
   const double share = thinned(std::numbers::pi * bead * bead * static_cast<double>(tools.size()));
   for (std::size_t i = 0; i < tools.size(); ++i) {
-    poll(i);
+    execution.poll(i);
     add(tools[i], tools[i], std::max(share * bead, least_bead), colors::outline, share);
   }
 }
@@ -556,9 +548,8 @@ ArmViews arm_roadmap_views(const Scene& scene, const ArmModel& model, const Join
   const ArmDrawing drawing(scene, all, execution);
   ArmViews views = drawing.draw(stands);
   std::vector<Vec3> tools;
-  constexpr std::size_t states_a_poll = 1 << 10;
   for (std::size_t i = 0; i < states.size(); ++i) {
-    if (i % states_a_poll == 0) execution.check();
+    execution.poll(i);
     tools.push_back(all.tool(states[i]));
   }
   const std::vector<PictureLayer> places = drawing.places(tools, lines);

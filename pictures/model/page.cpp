@@ -26,8 +26,8 @@ constexpr double text_size = 12.5;  ///< of all but the title
 constexpr double tick_length = 4.0;
 constexpr double swatch_gap = 8.0;  ///< between a swatch and its words
 
-void add_text(Page& page, Vec2 at, std::string words, double size, Anchor anchor, bool bold = false,
-              bool upright = false) {
+void add_text(Page& page, Vec2 at, std::string words, Anchor anchor = Anchor::start, double size = text_size,
+              bool bold = false, bool upright = false) {
   if (!words.empty()) page.texts.push_back({at, std::move(words), size, anchor, bold, upright});
 }
 
@@ -39,8 +39,8 @@ void add_axes(Page& page, const AxesPanel& panel, Box at, std::optional<double> 
   const auto line = [&](Vec2 a, Vec2 b) { page.frame.push_back({a, b}); };
   for_each_side(at.corners(), line);
   const auto names_inside = [&] {
-    add_text(page, {high.x - 6.0, high.y - 7.0}, panel.x_label, text_size, Anchor::end);
-    add_text(page, {low.x + 6.0, low.y + text_size + 5.0}, panel.y_label, text_size, Anchor::start);
+    add_text(page, {high.x - 6.0, high.y - 7.0}, panel.x_label, Anchor::end);
+    add_text(page, {low.x + 6.0, low.y + text_size + 5.0}, panel.y_label);
   };
   if (!panel.has_ticks) return names_inside();
   const View& view = page.view;
@@ -57,19 +57,19 @@ void add_axes(Page& page, const AxesPanel& panel, Box at, std::optional<double> 
     const double half = 0.5 * text_width(words, text_size);
     if (x - half < next) continue;
     next = x + half + 6.0;
-    add_text(page, {x, high.y + tick_length + 3.0 + text_size}, words, text_size, Anchor::middle);
+    add_text(page, {x, high.y + tick_length + 3.0 + text_size}, words, Anchor::middle);
   }
   for (const double tick : ticks(zero.y - high.y, zero.y - low.y)) {
     const double y = zero.y - view.scale * tick;
     line({low.x - tick_length, y}, {low.x, y});
-    add_text(page, {low.x - tick_length - 4.0, y + 0.35 * text_size}, tick_text(tick, step), text_size, Anchor::end);
+    add_text(page, {low.x - tick_length - 4.0, y + 0.35 * text_size}, tick_text(tick, step), Anchor::end);
   }
   const double below = tick_length + 3.0 + 2.3 * text_size;
   if (!name_at) {
     names_inside();
   } else {
-    add_text(page, {0.5 * (low.x + high.x), high.y + below}, panel.x_label, text_size, Anchor::middle);
-    add_text(page, {*name_at, 0.5 * (low.y + high.y)}, panel.y_label, text_size, Anchor::middle, false, true);
+    add_text(page, {0.5 * (low.x + high.x), high.y + below}, panel.x_label, Anchor::middle);
+    add_text(page, {*name_at, 0.5 * (low.y + high.y)}, panel.y_label, Anchor::middle, text_size, false, true);
   }
 }
 /// A round length with its ends marked, from `at` to the right.
@@ -82,8 +82,7 @@ void add_scale_bar(Page& page, Vec2 at, std::string_view unit) {
   for (const Vec2 p : {at, end}) page.ink.push_back({{p.x, p.y - 3.5}, {p.x, p.y + 3.5}});
   const bool one = step == 1.0 && unit == "cells";
   add_text(page, {end.x + swatch_gap, at.y + 0.35 * text_size},
-           fmt::format("{}{}{}", tick_text(step, step), unit.empty() ? "" : " ", one ? "cell" : unit), text_size,
-           Anchor::start);
+           fmt::format("{}{}{}", tick_text(step, step), unit.empty() ? "" : " ", one ? "cell" : unit));
 }
 
 constexpr double usual_side = 720.0;  // of the world's longer side
@@ -156,8 +155,6 @@ class PageMaker {
     const double aspect = world_width() / world_height();
     if (!fixed()) return aspect < 1.4;
     const auto scale = [&](bool beside) {
-      beside_ = beside;
-      page_.data = {};
       lay_out(beside);
       return page_.view.scale;
     };
@@ -174,35 +171,32 @@ class PageMaker {
     around_ = {margin + name + (has_axes() ? numbers + tick_length + 4.0 : 0.0), margin,
                std::max(margin, 0.5 * numbers), margin + axis + name};
     if (beside && !entries_.empty()) around_.right += legend_gap + entry_width_;
-    const double longer = std::max(world_width(), world_height());
-    double data_width = 0.0;
-    double data_height = 0.0;
-    for (int round = 0; round < 2; ++round) {  // the title is wrapped to the width that the first round gives
-      if (fixed()) {
-        wrap_title();
-        Margins all = around_;
-        all.top += title_height();
-        if (!beside) {
-          const double inner = page_.width - 2.0 * margin;
-          const auto rows = (slots() + legend_columns(inner) - 1) / legend_columns(inner);
-          all.bottom += legend_gap + legend_row * static_cast<double>(rows);
-        }
-        data_width = std::max(page_.width - all.left - all.right, 8.0);
-        data_height = std::max(page_.height - all.top - all.bottom, 8.0);
-        const double fit_rim = std::min({rim, 0.2 * data_width, 0.2 * data_height});
-        page_.view.scale =
-            std::min((data_width - 2.0 * fit_rim) / world_width(), (data_height - 2.0 * fit_rim) / world_height());
-        page_.data = Box{{all.left, all.top}, {all.left + data_width, all.top + data_height}};
-        return;
-      }
-      page_.view.scale = (usual_side - 2.0 * rim) / longer;
-      data_width = std::max(world_width() * page_.view.scale + 2.0 * rim, least_side);
-      data_height = std::max(world_height() * page_.view.scale + 2.0 * rim, least_side);
-      page_.width = around_.left + data_width + around_.right;
-      wrap_title();
-    }
+    if (fixed()) return fit_data();
+    page_.view.scale = (usual_side - 2.0 * rim) / std::max(world_width(), world_height());
+    const double data_width = std::max(world_width() * page_.view.scale + 2.0 * rim, least_side);
+    const double data_height = std::max(world_height() * page_.view.scale + 2.0 * rim, least_side);
+    page_.width = around_.left + data_width + around_.right;
+    wrap_title();
     const double top = around_.top + title_height();
     page_.data = Box{{around_.left, top}, {around_.left + data_width, top + data_height}};
+  }
+
+  /// On a page whose size was asked for: the world in what the margins leave.
+  void fit_data() {
+    wrap_title();
+    Margins all = around_;
+    all.top += title_height();
+    if (!beside_) {
+      const double inner = page_.width - 2.0 * margin;
+      const auto rows = (slots() + legend_columns(inner) - 1) / legend_columns(inner);
+      all.bottom += legend_gap + legend_row * static_cast<double>(rows);
+    }
+    const double data_width = std::max(page_.width - all.left - all.right, 8.0);
+    const double data_height = std::max(page_.height - all.top - all.bottom, 8.0);
+    const double fit_rim = std::min({rim, 0.2 * data_width, 0.2 * data_height});
+    page_.view.scale =
+        std::min((data_width - 2.0 * fit_rim) / world_width(), (data_height - 2.0 * fit_rim) / world_height());
+    page_.data = Box{{all.left, all.top}, {all.left + data_width, all.top + data_height}};
   }
 
   /// The page around a world of the usual size.
@@ -238,28 +232,21 @@ class PageMaker {
     if (!title_.empty()) {
       y += title_size;
       constexpr double bold = 1.08;
-      add_text(page_, {margin, y}, fitting_text(title_, title_size * bold, page_.width - 2.0 * margin), title_size,
-               Anchor::start, true);
+      add_text(page_, {margin, y}, fitting_text(title_, title_size * bold, page_.width - 2.0 * margin), Anchor::start,
+               title_size, true);
       y += (line_height - 1.0) * title_size;
     }
     for (const std::string& line : subtitle_) {
-      add_text(page_, {margin, y + text_size}, line, text_size, Anchor::start);
+      add_text(page_, {margin, y + text_size}, line);
       y += line_height * text_size;
     }
   }
 
   void axes() {
     if (picture_.panels.empty()) {
-      const auto& whole = page_.canvas.whole;
       const Box& data = page_.data;
-      const std::string x = axis_name('x', whole ? std::optional(Vec2{whole->min.x, whole->max.x}) : std::nullopt);
-      const std::string y = axis_name('y', whole ? std::optional(Vec2{whole->min.y, whole->max.y}) : std::nullopt);
-      const auto fits = [](const std::string& words, double room) { return text_width(words, text_size) <= room; };
-      add_axes(page_,
-               {.x_label = fits(x, data.width()) ? x : axis_name('x', std::nullopt),
-                .y_label = fits(y, data.height()) ? y : axis_name('y', std::nullopt)},
-               data, margin + text_size);
-      return;
+      return add_axes(page_, {.x_label = axis_name('x', data.width()), .y_label = axis_name('y', data.height())}, data,
+                      margin + text_size);
     }
     for (const AxesPanel& panel : picture_.panels) {
       const Vec2 low = page_.view.at(panel.box.min);
@@ -268,12 +255,16 @@ class PageMaker {
     }
   }
 
-  /// of: what the whole map takes of the axis, where not all of it is shown.
-  std::string axis_name(char axis, std::optional<Vec2> of) const {
+  /// Where not all of a map is shown, with what the whole takes of the axis, if there is room for it.
+  std::string axis_name(char axis, double room) const {
     const std::string_view unit = unit_of(picture_.scene);
-    std::string name = unit.empty() ? std::string(1, axis) : fmt::format("{} ({})", axis, unit);
-    if (of) name += fmt::format(", part of {} to {}: the rest is unknown", human_number(of->x), human_number(of->y));
-    return name;
+    const std::string name = unit.empty() ? std::string(1, axis) : fmt::format("{} ({})", axis, unit);
+    if (!page_.canvas.whole) return name;
+    const auto& [low, high] = *page_.canvas.whole;
+    const std::string of_all =
+        fmt::format("{}, part of {} to {}: the rest is unknown", name, human_number(axis == 'x' ? low.x : low.y),
+                    human_number(axis == 'x' ? high.x : high.y));
+    return text_width(of_all, text_size) <= room ? of_all : name;
   }
   void legend() {
     if (entries_.empty()) return;
@@ -287,8 +278,7 @@ class PageMaker {
     for (std::size_t i = 0; i < entries_.size(); ++i) page_.legend.push_back({place(i), entries_[i]});
     if (has_axes()) add_scale_bar(page_, place(entries_.size()), unit_of(picture_.scene));
     for (const PlacedLegend& placed : page_.legend) {
-      add_text(page_, {placed.at.x + swatch_width + swatch_gap, placed.at.y + 0.35 * text_size}, placed.entry.label,
-               text_size, Anchor::start);
+      add_text(page_, {placed.at.x + swatch_width + swatch_gap, placed.at.y + 0.35 * text_size}, placed.entry.label);
     }
   }
 

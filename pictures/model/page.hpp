@@ -3,9 +3,11 @@
 // (1/96 inch, y down) before anything is drawn, so that all formats agree.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/types.hpp"
@@ -29,6 +31,8 @@ struct LegendEntry {
 std::vector<LegendEntry> legend_of(const Picture& picture, Parts parts, const Execution& execution);
 
 enum class Anchor : std::uint8_t { start, middle, end };
+/// As SVG says it.
+constexpr auto enum_names(Anchor) { return std::array<std::string_view, 3>{"start", "middle", "end"}; }
 
 struct PlacedText {
   Vec2 at;  ///< on the base line

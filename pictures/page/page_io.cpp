@@ -71,19 +71,10 @@ class NumberArray {
       : execution_(execution), write_(write), base64_(write) {
     write_(fmt::format(",\"{}\":{{\"type\":\"{}\",\"data\":\"", name, array_type<T>()));
   }
-  template <class Number>
-  void add(Number number) {
-    constexpr std::size_t piece = 1U << 16U;
-    const auto value = static_cast<T>(number);
-    bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
-    if (bytes_.size() >= piece) flush();
-  }
-  void add(Vec2 p) {
-    add(p.x);
-    add(p.y);
-  }
-  void add(const Vec3& p) {
-    for (int k = 0; k < 3; ++k) add(p[k]);
+  /// Numbers and points, in this order.
+  template <class... Some>
+  void add(const Some&... some) {
+    (add_one(some), ...);
   }
   void end() {
     flush();
@@ -92,6 +83,15 @@ class NumberArray {
   }
 
  private:
+  template <class Number>
+  void add_one(Number number) {
+    constexpr std::size_t piece = 1U << 16U;
+    const auto value = static_cast<T>(number);
+    bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
+    if (bytes_.size() >= piece) flush();
+  }
+  void add_one(Vec2 p) { add(p.x, p.y); }
+  void add_one(const Vec3& p) { add(p.x(), p.y(), p.z()); }
   void flush() {
     execution_.check();
     base64_.write(bytes_);
@@ -192,10 +192,7 @@ class PageWriter {
     numbers<float>("states", roadmap.states, moving());
     numbers<std::uint8_t>("component", component);
     auto edges = numbers<std::uint32_t>("edges");
-    roadmap.graph.for_each_edge([&](VertexId v, VertexId w) {
-      edges.add(v);
-      edges.add(w);
-    });
+    roadmap.graph.for_each_edge([&](VertexId v, VertexId w) { edges.add(v, w); });
     edges.end();
     if (parts_.has(Part::search) && !roadmap.search_tree.empty()) {
       execution_.reserve(roadmap.states.size() * sizeof(std::int32_t));
@@ -223,12 +220,7 @@ class PageWriter {
     constexpr double step_rad = 0.05;
     const Timetable table = timetable_of(body);
     auto out = numbers<double>("poses");
-    const auto add = [&](Vec2 at, double theta, double moment) {
-      out.add(at);
-      out.add(theta);
-      out.add(moment);
-    };
-    add(moved(body.poses.front().position()), body.poses.front().theta, 0.0);
+    out.add(moved(body.poses.front().position()), body.poses.front().theta, 0.0);
     for (std::size_t i = 1; i < body.poses.size(); ++i) {
       const Se2& from = body.poses[i - 1];
       const Se2& to = body.poses[i];
@@ -236,31 +228,31 @@ class PageWriter {
       const double arc = picture_.path_turns.empty() ? 0.0 : picture_.path_turns[i];
       std::vector<Vec2> way = without_arcs(std::array{from.position(), to.position()}, std::array{0.0, arc});
       if (way.size() == 2) {
-        const auto parts = static_cast<std::size_t>(std::ceil(std::abs(turn) / step_rad));
+        const double parts = std::max(1.0, std::ceil(std::abs(turn) / step_rad));
         way = {from.position()};
-        for (std::size_t k = 1; k <= std::max<std::size_t>(parts, 1); ++k) {
-          const double share = static_cast<double>(k) / static_cast<double>(std::max<std::size_t>(parts, 1));
-          way.push_back(from.position() + share * (to.position() - from.position()));
+        for (double part = 1.0; part <= parts; part += 1.0) {
+          way.push_back(from.position() + part / parts * (to.position() - from.position()));
         }
       }
       for (std::size_t k = 1; k < way.size(); ++k) {
         const double share = static_cast<double>(k) / static_cast<double>(way.size() - 1);
-        add(moved(way[k]), from.theta + share * turn,
-            table.moments[i - 1] + share * (table.moments[i] - table.moments[i - 1]));
+        out.add(moved(way[k]), from.theta + share * turn,
+                table.moments[i - 1] + share * (table.moments[i] - table.moments[i - 1]));
       }
     }
     out.end();
   }
 
   void layers() {
+    const auto add_layers = [&](bool of_world) {
+      for (const PictureLayer& one : picture_.layers) {
+        if ((one.part == Part::world) == of_world && parts_.has(one.part) && !one.lines.empty()) layer(one);
+      }
+    };
     write_(",\"layers\":[");
-    for (const PictureLayer& one : picture_.layers) {
-      if (one.part == Part::world && parts_.has(one.part) && !one.lines.empty()) layer(one);
-    }
+    add_layers(true);
     if (parts_.has(Part::world) && !picture_.scene.polygons.empty()) polygons();
-    for (const PictureLayer& one : picture_.layers) {
-      if (one.part != Part::world && parts_.has(one.part) && !one.lines.empty()) layer(one);
-    }
+    add_layers(false);
     if (parts_.has(Part::world)) walls();
     if (picture_.solids != nullptr && !moves_arm(picture_, parts_)) perspective(*picture_.solids);
     write_("]");
@@ -334,32 +326,24 @@ class PageWriter {
     }
     about["kind"] = "segments";
     begin_layer(about);
-    if (has_small_whole_walls()) {
-      wall_ends<std::uint16_t>();
-    } else {
-      wall_ends<float>();
-    }
+    has_small_whole_walls() ? wall_ends<std::uint16_t>() : wall_ends<float>();
     write_("}");
   }
 
   template <class T>
   void wall_ends() {
     auto xy = numbers<T>("xy");
-    const auto add = [&](Vec2 a, Vec2 b) {
-      xy.add(moved(a));
-      xy.add(moved(b));
-    };
+    const auto add = [&](const Segment& s) { xy.add(moved(s.a), moved(s.b)); };
     picture_.scene.walls.visit([&](auto all) {
-      for (const auto& wall : all) add(wall.segment().a, wall.segment().b);
+      for (const auto& wall : all) add(wall.segment());
     });
-    for (const Segment& side : bounds_walls(picture_.scene)) add(side.a, side.b);
+    for (const Segment& side : bounds_walls(picture_.scene)) add(side);
     xy.end();
   }
 
   void wall_image() {
     constexpr double most_pixels = 4096.0;
     constexpr double least_width = 0.2;
-    constexpr std::size_t walls_a_poll = 1 << 14;
     const Box& box = canvas_.box;
     const double scale = most_pixels / std::max(box.width(), box.height());
     Mask mask(static_cast<std::size_t>(std::ceil(scale * box.width())),
@@ -368,7 +352,7 @@ class PageWriter {
     const double width = std::max(widths::wall / 20.0 * scale * canvas_.unit, least_width);
     picture_.scene.walls.visit([&](auto all) {
       for (std::size_t i = 0; i < all.size(); ++i) {
-        if (i % walls_a_poll == 0) execution_.check();
+        execution_.poll(i);
         mask.draw_line(at(all[i].segment().a), at(all[i].segment().b), width);
       }
     });
@@ -406,33 +390,25 @@ class PageWriter {
     const MovingArm& arm = *picture_.arm;
     begin(",\"arm\":", arm_facts());
     const auto place = [&](const Vec3& p) -> Vec3 { return p - solids.target; };
-    auto spheres = numbers<float>("spheres");
-    for (const SeenSolid& s : solids.solids) {
-      if (s.part != Part::world || s.radius < 0.0 || !parts_.has(s.part)) continue;
-      spheres.add(place(s.a));
-      spheres.add(s.radius);
-    }
-    spheres.end();
-    auto boxes = numbers<float>("boxes");
-    for (const SeenSolid& s : solids.solids) {
-      if (s.radius >= 0.0 || s.c || !parts_.has(s.part)) continue;
-      boxes.add(place(s.a));
-      boxes.add(place(s.b));
-    }
-    boxes.end();
-    auto faces = numbers<float>("faces");
-    for (const SeenSolid& s : solids.solids) {
-      if (!s.c || s.part != Part::world || !parts_.has(s.part)) continue;
-      for (const Vec3& p : {s.a, s.b, *s.c}) faces.add(place(p));
-    }
-    faces.end();
+    const auto shown = [&](std::string_view name, const auto& add_its_kind) {
+      auto out = numbers<float>(name);
+      for (const SeenSolid& s : solids.solids) {
+        if (parts_.has(s.part)) add_its_kind(out, s);
+      }
+      out.end();
+    };
+    shown("spheres", [&](auto& out, const SeenSolid& s) {
+      if (s.part == Part::world && s.radius >= 0.0) out.add(place(s.a), s.radius);
+    });
+    shown("boxes", [&](auto& out, const SeenSolid& s) {
+      if (s.radius < 0.0 && !s.c) out.add(place(s.a), place(s.b));
+    });
+    shown("faces", [&](auto& out, const SeenSolid& s) {
+      if (s.part == Part::world && s.c) out.add(place(s.a), place(s.b), place(*s.c));
+    });
     auto links = numbers<float>("links");
     for (const MovingArm::Link& link : arm.links) {
-      for (const SeenSolid& s : link.shapes) {
-        links.add(static_cast<double>(link.frame));
-        links.add(s.radius);
-        for (const Vec3& p : {s.a, s.b, s.c.value_or(s.a)}) links.add(p);
-      }
+      for (const SeenSolid& s : link.shapes) links.add(link.frame, s.radius, s.a, s.b, s.c.value_or(s.a));
     }
     links.end();
     auto frames = numbers<float>("frames");

@@ -18,7 +18,6 @@ namespace warren {
 namespace {
 
 std::string svg_of(const PlotWords& words) {
-  constexpr std::array<std::string_view, 3> anchors{"start", "middle", "end"};
   const PlacedText& text = words.text;
   std::string more;
   if (text.size != plot_text_size) more += fmt::format(" font-size=\"{}\"", text.size);
@@ -26,7 +25,7 @@ std::string svg_of(const PlotWords& words) {
   if (text.upright) more += fmt::format(" transform=\"rotate(-90 {:.1f} {:.1f})\"", text.at.x, text.at.y);
   if (!(words.color == colors::text)) more += fmt::format(" fill=\"{}\"", css_color(words.color));
   return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", text.at.x, text.at.y,
-                     anchors[static_cast<std::size_t>(text.anchor)], more, xml_text(text.text));
+                     name_of(text.anchor), more, xml_text(text.text));
 }
 
 std::string svg_of(const PlotShape& shape) {

@@ -30,7 +30,6 @@ namespace {
 using MeshTriangle = std::array<std::uint32_t, 3>;
 
 constexpr std::size_t most_mesh_points = std::size_t{1} << 30;
-constexpr std::size_t numbers_a_look = 4096;
 
 /// Collects points and polygons, which it cuts into triangles.
 class MeshCollector {
@@ -49,13 +48,13 @@ class MeshCollector {
     }
     if (points() == most_mesh_points) throw InputError(name_, "a mesh may have at most 2^30 points");
     push_asked(mesh_.points, point, execution_);
-    if (points() % numbers_a_look == 0) execution_.check();
+    execution_.poll(points());
   }
   /// Numbers of points.
   void add_polygon(std::span<const std::uint32_t> corners) {
     for (std::size_t i = 2; i < corners.size(); ++i) {
       push_asked(mesh_.triangles, {corners[0], corners[i - 1], corners[i]}, execution_);
-      if (mesh_.triangles.size() % numbers_a_look == 0) execution_.check();
+      execution_.poll(mesh_.triangles.size());
     }
   }
 
@@ -109,7 +108,7 @@ Mesh read_obj(const InputFile& file, const Vec3& scale, const Execution& executi
       corners.clear();
       while (!fields.done()) {
         push_asked(corners, obj_corner(fields.place(), fields.word(), mesh.points()), execution);
-        if (corners.size() % numbers_a_look == 0) execution.check();
+        execution.poll(corners.size());
       }
       if (corners.size() < 3) fields.place().fail("a face has at least three corners", lines.line());
       mesh.add_polygon(corners);
@@ -233,26 +232,25 @@ class ColladaReader {
   void transform(pugi::xml_node node, Eigen::Affine3d& pose) const {
     const std::string_view kind = node.name();
     std::array<double, 16> n{};
-    const std::size_t count = kind == "matrix"                         ? 16
-                              : kind == "rotate"                       ? 4
-                              : kind == "translate" || kind == "scale" ? 3
-                                                                       : 0;
-    if (count == 0) return;
-    xml_.numbers(node, node.child_value(), std::span(n).first(count));
-    const Vec3 first(n[0], n[1], n[2]);
+    const auto take = [&](std::size_t count) {
+      xml_.numbers(node, node.child_value(), std::span(n).first(count));
+      return Vec3(n[0], n[1], n[2]);
+    };
     if (kind == "matrix") {
+      take(16);
       Eigen::Affine3d matrix = Eigen::Affine3d::Identity();
       matrix.linear() << n[0], n[1], n[2], n[4], n[5], n[6], n[8], n[9], n[10];
       matrix.translation() = Vec3(n[3], n[7], n[11]);
       pose = pose * matrix;
     } else if (kind == "translate") {
-      pose.translate(first);
+      pose.translate(take(3));
     } else if (kind == "scale") {
-      pose.scale(first);
-    } else {
-      const double length = first.stableNorm();
+      pose.scale(take(3));
+    } else if (kind == "rotate") {
+      const Vec3 axis = take(4);
+      const double length = axis.stableNorm();
       if (!(length > 0.0)) xml_.fail(node, "the axis has no direction");
-      pose.rotate(turn_about(first / length, n[3] * (std::numbers::pi / 180.0)));
+      pose.rotate(turn_about(axis / length, n[3] * (std::numbers::pi / 180.0)));
     }
   }
 
@@ -314,7 +312,7 @@ class ColladaReader {
       if (std::string_view(list.name()) != "p") continue;
       std::string_view text = list.child_value();
       for (std::size_t i = 0; !text.empty(); ++i) {
-        if (i % numbers_a_look == 0) execution_.check();
+        execution_.poll(i);
         std::size_t number = 0;
         const bool is_corner = i % stride == offset;
         if (!take_number(text, number) || (is_corner && number >= mesh_.points() - first))

@@ -52,14 +52,85 @@ PoseNumbers joined(const PoseNumbers& outer, const PoseNumbers& inner) {
   return {{at.x(), at.y(), at.z()}, quaternion_of_turn(whole.linear())};
 }
 
-/// What scenes and requests have in common: nodes as what they should be, and the robot's state. Each error names its
-/// line.
+/// Scenes and requests: nodes as what they should be, and what they say of the scene. Each error names its line.
 class MoveItReader {
  public:
-  MoveItReader(const InputFile& file, std::string_view what, const Execution& execution)
-      : yaml_(file, what, most_mebibytes, execution), execution_(execution) {}
+  /// What is read goes into the scene.
+  MoveItReader(Scene& scene, const InputFile& file, std::string_view what, const Execution& execution)
+      : scene_(scene), yaml_(file, what, most_mebibytes, execution), execution_(execution) {}
 
- protected:
+  void read_scene() {
+    const Node& root = yaml_.root();
+    expect_keys(root, "a planning scene of MoveIt",
+                {"name", "robot_state", "robot_model_name", "fixed_frame_transforms", "allowed_collision_matrix",
+                 "link_padding", "link_scale", "object_colors", "world", "is_diff"});
+    const Node world = at(root, "world");
+    expect_keys(world, "the world of a planning scene", {"collision_objects", "octomap"});
+    const Node stamped = at(world, "octomap");
+    expect_keys(stamped, "an octomap", {"header", "origin", "octomap"});
+    expect_keys(at(stamped, "octomap"), "an octomap", {"header", "binary", "id", "resolution", "data"});
+    const Node octomap = at(at(stamped, "octomap"), "data");
+    if (octomap.IsScalar() ? !octomap.Scalar().empty() : octomap.size() > 0)
+      yaml_.fail(at(world, "octomap"), "octomaps are not read");
+    for_each(root, "fixed_frame_transforms", [&](const Node& frame) {
+      expect_keys(frame, "a fixed frame", {"header", "child_frame_id", "transform"});
+      const bool same = pose(needed(frame, "transform"), "translation", "rotation").is_identity();
+      if (!same) yaml_.fail(frame, "frames must stand at 0 0 0: what is in them would be elsewhere");
+      if (const Node child = at(frame, "child_frame_id"); child.IsScalar()) know_frame(child.Scalar());
+      know_frame(frame_name(frame));
+    });
+    take_state(at(root, "robot_state"));
+    for_each(world, "collision_objects", [&](const Node& object) { take_object(object); });
+    take_matrix(at(root, "allowed_collision_matrix"));
+    refuse_sizes(root, "link_padding", "padding", 0.0);
+    refuse_sizes(root, "link_scale", "scale", 1.0);
+  }
+  void read_request() {
+    const Node& root = yaml_.root();
+    expect_keys(
+        root, "a request of MoveIt",
+        {"workspace_parameters", "start_state", "goal_constraints", "path_constraints", "trajectory_constraints",
+         "reference_trajectories", "pipeline_id", "planner_id", "group_name", "num_planning_attempts",
+         "allowed_planning_time", "max_velocity_scaling_factor", "max_acceleration_scaling_factor",
+         "cartesian_speed_limited_link", "cartesian_speed_end_effector_link", "max_cartesian_speed"});
+    if (!root["group_name"] && !root["start_state"] && !root["goal_constraints"])
+      yaml_.place(root).fail("a request of MoveIt needs `group_name`, `start_state` or `goal_constraints`");
+    if (const Node group = at(root, "group_name"); !group.IsNull()) {
+      arm().group = word(group, "group_name");
+      ArmFiles* line = robot_line();
+      if (line != nullptr && line->srdf.empty() && !(line->base.empty() && line->tip.empty()))
+        yaml_.fail(group, "the robot's line says base and tip, and no SRDF that has the group; leave one out");
+      if (line != nullptr && !line->srdf.empty()) {  // which has the group
+        line->group = arm().group;
+        line->base.clear();
+        line->tip.clear();
+      }
+    }
+    take_state(at(root, "start_state"));
+    const Node way = at(root, "path_constraints");
+    expect_constraint(way);
+    for (const char* key : kinds) {
+      if (count(way, key) > 0) yaml_.fail(at(way, key), "constraints on the way are not kept: `path_constraints`");
+    }
+    const Node along = at(root, "trajectory_constraints");
+    expect_keys(along, "constraints on the way", {"constraints"});
+    if (count(along, "constraints") > 0)
+      yaml_.fail(along, "constraints on the way are not kept: `trajectory_constraints`");
+    scene_.goal.clear();
+    scene_.named_goals.clear();
+    scene_.goal_pose.reset();
+    for_each(root, "goal_constraints", [&](const Node& goal) { take_goal(goal); });
+    const bool by_place = scene_.goal_pose || !scene_.goal.empty();
+    if (by_place && count(root, "goal_constraints") > 1) {
+      yaml_.fail(at(root, "goal_constraints"), "goals are several where all are by `joint_constraints`");
+    }
+  }
+
+ private:
+  static constexpr std::size_t most_mebibytes = 64;
+  static constexpr std::array<const char*, 4> kinds{"joint_constraints", "position_constraints",
+                                                    "orientation_constraints", "visibility_constraints"};
+
   /// Null where the key, or the map itself, is missing.
   Node at(const Node& map, const char* key) const {
     if (map.IsNull()) return Node();
@@ -81,22 +152,20 @@ class MoveItReader {
       if (!seen.insert(key).second) yaml_.fail(entry.first, "this key stands here twice");
     }
   }
-  /// Each of a list; of nothing where the key is missing.
+  /// A list; null where the key is missing.
+  Node items(const Node& map, const char* key) const {
+    const Node found = at(map, key);
+    if (!found.IsNull() && !found.IsSequence()) yaml_.fail(found, fmt::format("`{}` must be a list", key));
+    return found;
+  }
   template <class Take>
   void for_each(const Node& map, const char* key, const Take& take) const {
-    const Node list = at(map, key);
-    if (list.IsNull()) return;
-    if (!list.IsSequence()) yaml_.fail(list, fmt::format("`{}` must be a list", key));
-    for (const Node& item : list) {
+    for (const Node& item : items(map, key)) {
       execution_.check();
       take(item);
     }
   }
-  std::size_t count(const Node& map, const char* key) const {
-    const Node list = at(map, key);
-    if (!list.IsNull() && !list.IsSequence()) yaml_.fail(list, fmt::format("`{}` must be a list", key));
-    return list.size();
-  }
+  std::size_t count(const Node& map, const char* key) const { return items(map, key).size(); }
   Node needed(const Node& map, const char* key) const {
     const Node found = at(map, key);
     if (found.IsNull()) yaml_.place(map).fail(fmt::format("the key `{}` is missing here", key));
@@ -152,7 +221,7 @@ class MoveItReader {
   }
 
   /// Of a robot_state or start_state.
-  void take_state(Scene& scene, const Node& state) {
+  void take_state(const Node& state) {
     expect_keys(state, "a robot's state",
                 {"joint_state", "multi_dof_joint_state", "attached_collision_objects", "is_diff"});
     const Node joints = at(state, "joint_state");
@@ -160,11 +229,11 @@ class MoveItReader {
     expect_keys(at(state, "multi_dof_joint_state"), "a state of joints",
                 {"header", "joint_names", "transforms", "twist", "wrench"});
     for (const char* key : {"joint_state", "multi_dof_joint_state"}) know_frame(frame_name(at(state, key)));
-    if (!joints.IsNull()) take_joints(scene, joints);
+    if (!joints.IsNull()) take_joints(joints);
     for_each(at(state, "multi_dof_joint_state"), "transforms", [&](const Node& base) {
       if (!pose(base, "translation", "rotation").is_identity()) yaml_.fail(base, "the arm's base must stand at 0 0 0");
     });
-    for_each(state, "attached_collision_objects", [&](const Node& attached) { take_attached(scene, attached); });
+    for_each(state, "attached_collision_objects", [&](const Node& attached) { take_attached(attached); });
   }
   /// A box, ball or cylinder, or a mesh's hull: take(solid) for each.
   template <class Take>
@@ -212,17 +281,11 @@ class MoveItReader {
                "a scene may name the root's frame in one of `fixed_frame_transforms` at 0 0 0");
   }
 
-  ArmFiles& arm_of(Scene& scene) const { return scene.arm ? *scene.arm : scene.arm.emplace(); }
+  ArmFiles& arm() const { return scene_.arm ? *scene_.arm : scene_.arm.emplace(); }
   /// What the world's own line says of the robot, which the request takes the place of; null: nothing.
-  ArmFiles* line_of(Scene& scene) const { return scene.robot && scene.robot->files ? &*scene.robot->files : nullptr; }
+  ArmFiles* robot_line() const { return scene_.robot && scene_.robot->files ? &*scene_.robot->files : nullptr; }
 
-  YamlFile yaml_;
-  const Execution& execution_;
-
- private:
-  static constexpr std::size_t most_mebibytes = 64;
-
-  void take_joints(Scene& scene, const Node& joints) const {
+  void take_joints(const Node& joints) const {
     NamedState state;
     std::map<std::string, double> values;
     for_each(joints, "name", [&](const Node& name) {
@@ -235,16 +298,16 @@ class MoveItReader {
     }
     if (state.names.empty()) return;
     for (std::size_t i = 0; i < state.names.size(); ++i) values[state.names[i]] = state.values[i];
-    if (ArmFiles* line = line_of(scene))
+    if (ArmFiles* line = robot_line())
       std::erase_if(line->held, [&](const auto& joint) { return values.contains(joint.first); });
-    auto& held = arm_of(scene).held;
+    auto& held = arm().held;
     for (const auto& joint : held) values.insert(joint);
     held.assign(values.begin(), values.end());
-    scene.start.clear();
-    scene.named_start = std::move(state);
+    scene_.start.clear();
+    scene_.named_start = std::move(state);
   }
   /// Takes the place of what had this name before: a request's that of the scene's.
-  void take_attached(Scene& scene, const Node& attached) {
+  void take_attached(const Node& attached) {
     expect_keys(attached, "what is attached", {"link_name", "object", "touch_links", "detach_posture", "weight"});
     const std::string link = word(needed(attached, "link_name"), "link_name");
     std::vector<std::string> touched;
@@ -252,7 +315,7 @@ class MoveItReader {
     const Node object = needed(attached, "object");
     if (const std::string frame = frame_name(object); !frame.empty() && frame != link)
       yaml_.fail(at(at(object, "header"), "frame_id"), fmt::format("what is attached must be in the frame {}", link));
-    std::vector<AttachedSolid>& all = arm_of(scene).attached;
+    std::vector<AttachedSolid>& all = arm().attached;
     const Node id = at(object, "id");
     const std::string name = id.IsScalar() ? id.Scalar() : "";
     std::erase_if(all, [&](const AttachedSolid& old) {
@@ -301,42 +364,6 @@ class MoveItReader {
     return solid_of_numbers(*solid_word_named("hull"), all, yaml_.place(shape), execution_);
   }
 
-  std::set<std::string> root_frames_{"", "world"};  ///< names of the root's frame
-};
-
-class MoveItSceneReader : MoveItReader {
- public:
-  using MoveItReader::MoveItReader;
-
-  Scene read() {
-    const Node& root = yaml_.root();
-    expect_keys(root, "a planning scene of MoveIt",
-                {"name", "robot_state", "robot_model_name", "fixed_frame_transforms", "allowed_collision_matrix",
-                 "link_padding", "link_scale", "object_colors", "world", "is_diff"});
-    const Node world = at(root, "world");
-    expect_keys(world, "the world of a planning scene", {"collision_objects", "octomap"});
-    const Node stamped = at(world, "octomap");
-    expect_keys(stamped, "an octomap", {"header", "origin", "octomap"});
-    expect_keys(at(stamped, "octomap"), "an octomap", {"header", "binary", "id", "resolution", "data"});
-    const Node octomap = at(at(stamped, "octomap"), "data");
-    if (octomap.IsScalar() ? !octomap.Scalar().empty() : octomap.size() > 0)
-      yaml_.fail(at(world, "octomap"), "octomaps are not read");
-    for_each(root, "fixed_frame_transforms", [&](const Node& frame) {
-      expect_keys(frame, "a fixed frame", {"header", "child_frame_id", "transform"});
-      const bool same = pose(needed(frame, "transform"), "translation", "rotation").is_identity();
-      if (!same) yaml_.fail(frame, "frames must stand at 0 0 0: what is in them would be elsewhere");
-      if (const Node child = at(frame, "child_frame_id"); child.IsScalar()) know_frame(child.Scalar());
-      know_frame(frame_name(frame));
-    });
-    take_state(scene_, at(root, "robot_state"));
-    for_each(world, "collision_objects", [&](const Node& object) { take_object(object); });
-    take_matrix(at(root, "allowed_collision_matrix"));
-    refuse_sizes(root, "link_padding", "padding", 0.0);
-    refuse_sizes(root, "link_scale", "scale", 1.0);
-    return std::move(scene_);
-  }
-
- private:
   /// Links are as large as their files say.
   void refuse_sizes(const Node& root, const char* list, const char* key, double usual) const {
     for_each(root, list, [&](const Node& link) {
@@ -386,21 +413,17 @@ class MoveItSceneReader : MoveItReader {
     if (count(matrix, "default_entry_values") != names.size()) {
       yaml_.place(matrix).fail("`default_entry_values` must have as many items as `default_entry_names`");
     }
-    std::map<std::string, bool> defaults;
+    std::set<std::string> never;  // may touch nobody: one of their entries says so
     std::size_t i = 0;
     for_each(matrix, "default_entry_values", [&](const Node& value) {
-      const bool may_touch = truth(value, "default_entry_values");
-      defaults.emplace(names[i++], may_touch).first->second &= may_touch;
+      if (!truth(value, "default_entry_values")) never.insert(names[i]);
+      ++i;
     });
-    const auto is_never = [&](const std::string& name) {
-      const auto found = defaults.find(name);
-      return found != defaults.end() && !found->second;
-    };
     std::set<std::string> paired(known.begin(), known.end());
     for (const std::string& name : names) {
       if (!paired.insert(name).second) continue;
       for (const std::string& other : known) {
-        if (!is_never(name) && !is_never(other)) allow(name, other);
+        if (!never.contains(name) && !never.contains(other)) allow(name, other);
       }
       known.push_back(name);
     }
@@ -415,97 +438,42 @@ class MoveItSceneReader : MoveItReader {
     execution_.check();
     if (ids_.contains(first) || ids_.contains(second) || first == second) return;
     bool is_attached = false;
-    for (AttachedSolid& attached : arm_of(scene_).attached) {
+    for (AttachedSolid& attached : arm().attached) {
       if (attached.solid.name != first && attached.solid.name != second) continue;
       is_attached = true;
       attached.may_touch.push_back(attached.solid.name == first ? second : first);
     }
-    if (!is_attached) push_asked(arm_of(scene_).allowed, {first, second}, execution_);
+    if (!is_attached) push_asked(arm().allowed, {first, second}, execution_);
   }
-
-  Scene scene_;
-  std::set<std::string> ids_;  ///< of the world's objects
-};
-
-class MoveItRequestReader : MoveItReader {
- public:
-  using MoveItReader::MoveItReader;
-
-  void read(Scene& scene) {
-    const Node& root = yaml_.root();
-    expect_keys(
-        root, "a request of MoveIt",
-        {"workspace_parameters", "start_state", "goal_constraints", "path_constraints", "trajectory_constraints",
-         "reference_trajectories", "pipeline_id", "planner_id", "group_name", "num_planning_attempts",
-         "allowed_planning_time", "max_velocity_scaling_factor", "max_acceleration_scaling_factor",
-         "cartesian_speed_limited_link", "cartesian_speed_end_effector_link", "max_cartesian_speed"});
-    if (!root["group_name"] && !root["start_state"] && !root["goal_constraints"])
-      yaml_.place(root).fail("a request of MoveIt needs `group_name`, `start_state` or `goal_constraints`");
-    if (const Node group = at(root, "group_name"); !group.IsNull()) {
-      arm_of(scene).group = word(group, "group_name");
-      ArmFiles* line = line_of(scene);
-      if (line != nullptr && line->srdf.empty() && !(line->base.empty() && line->tip.empty()))
-        yaml_.fail(group, "the robot's line says base and tip, and no SRDF that has the group; leave one out");
-      if (line != nullptr && !line->srdf.empty()) {  // which has the group
-        line->group = arm_of(scene).group;
-        line->base.clear();
-        line->tip.clear();
-      }
-    }
-    take_state(scene, at(root, "start_state"));
-    const Node way = at(root, "path_constraints");
-    expect_constraint(way);
-    for (const char* key : kinds) {
-      if (count(way, key) > 0) yaml_.fail(at(way, key), "constraints on the way are not kept: `path_constraints`");
-    }
-    const Node along = at(root, "trajectory_constraints");
-    expect_keys(along, "constraints on the way", {"constraints"});
-    if (count(along, "constraints") > 0)
-      yaml_.fail(along, "constraints on the way are not kept: `trajectory_constraints`");
-    scene.goal.clear();
-    scene.named_goals.clear();
-    scene.goal_pose.reset();
-    for_each(root, "goal_constraints", [&](const Node& goal) { take_goal(scene, goal); });
-    const bool by_place = scene.goal_pose || !scene.goal.empty();
-    if (by_place && count(root, "goal_constraints") > 1) {
-      yaml_.fail(at(root, "goal_constraints"), "goals are several where all are by `joint_constraints`");
-    }
-  }
-
- private:
-  static constexpr std::array<const char*, 4> kinds{"joint_constraints", "position_constraints",
-                                                    "orientation_constraints", "visibility_constraints"};
 
   void expect_constraint(const Node& node) const {
     expect_keys(node, "constraints", {"name", kinds[0], kinds[1], kinds[2], kinds[3]});
   }
-  void take_goal(Scene& scene, const Node& goal) const {
+  void take_goal(const Node& goal) const {
     expect_constraint(goal);
     if (count(goal, kinds[3]) > 0) yaml_.fail(at(goal, kinds[3]), "`visibility_constraints` are not kept");
     if (count(goal, kinds[0]) > 0) {
       if (count(goal, kinds[1]) + count(goal, kinds[2]) > 0) {
         yaml_.fail(goal, "a goal is by joints or by a place of the tool, not by both");
       }
-      return take_joint_goal(scene, goal);
+      return take_joint_goal(goal);
     }
     if (count(goal, kinds[1]) != 1 || count(goal, kinds[2]) > 1) {
       yaml_.place(goal).fail("a goal needs `joint_constraints`, or one of `position_constraints`");
     }
     const Node place = at(goal, kinds[1])[0];
     expect_keys(place, "a position", {"header", "link_name", "target_point_offset", "constraint_region", "weight"});
-    if (const Node offset = at(place, "target_point_offset"); !offset.IsNull()) {
-      if (numbers<3>(offset, "target_point_offset") != std::array<double, 3>{}) {
-        yaml_.fail(offset, "`target_point_offset` must be 0 0 0");
-      }
-    }
+    const Node offset = at(place, "target_point_offset");
+    if (!offset.IsNull() && numbers<3>(offset, "target_point_offset") != std::array<double, 3>{})
+      yaml_.fail(offset, "`target_point_offset` must be 0 0 0");
     if (const Node link = at(place, "link_name"); !link.IsNull()) {
-      arm_of(scene).tool = word(link, "link_name");
-      if (ArmFiles* line = line_of(scene)) line->tool = arm_of(scene).tool;
+      arm().tool = word(link, "link_name");
+      if (ArmFiles* line = robot_line()) line->tool = arm().tool;
     }
     if (count(goal, kinds[2]) > 0) {
       const Node link = at(at(goal, kinds[2])[0], "link_name");
-      const bool same = !link.IsScalar() || link.Scalar() == arm_of(scene).tool;
-      if (!same) yaml_.fail(link, "place and turn must be of one link, here " + arm_of(scene).tool);
+      const bool same = !link.IsScalar() || link.Scalar() == arm().tool;
+      if (!same) yaml_.fail(link, "place and turn must be of one link, here " + arm().tool);
     }
     const Node region = needed(place, "constraint_region");
     expect_keys(region, "a region", {"primitives", "primitive_poses", "meshes", "mesh_poses"});
@@ -516,7 +484,7 @@ class MoveItRequestReader : MoveItReader {
     expect_keys(middle, "a pose", {"position", "orientation"});
     PoseNumbers pose{.at = numbers<3>(needed(middle, "position"), "position")};
     if (count(goal, kinds[2]) == 0) {
-      scene.goal.assign(pose.at.begin(), pose.at.end());
+      scene_.goal.assign(pose.at.begin(), pose.at.end());
       return;
     }
     const Node turned = at(goal, kinds[2])[0];
@@ -525,9 +493,9 @@ class MoveItRequestReader : MoveItReader {
                  "absolute_z_axis_tolerance", "parameterization", "weight"});
     check_frame(turned);
     pose.turn = quaternion(needed(turned, "orientation"), "orientation");
-    scene.goal_pose = pose.pose();
+    scene_.goal_pose = pose.pose();
   }
-  void take_joint_goal(Scene& scene, const Node& goal) const {
+  void take_joint_goal(const Node& goal) const {
     NamedState state;
     std::set<std::string> seen;
     for_each(goal, kinds[0], [&](const Node& joint) {
@@ -537,15 +505,21 @@ class MoveItRequestReader : MoveItReader {
       state.names.push_back(name.Scalar());
       state.values.push_back(number(needed(joint, "position"), "position"));
     });
-    push_asked(scene.named_goals, std::move(state), execution_);
+    push_asked(scene_.named_goals, std::move(state), execution_);
   }
+
+  Scene& scene_;
+  YamlFile yaml_;
+  const Execution& execution_;
+  std::set<std::string> root_frames_{"", "world"};  ///< names of the root's frame
+  std::set<std::string> ids_;                       ///< of the world's objects
 };
 
-/// yaml-cpp's own words for a node that is not what its reader takes it for.
-template <class Read>
-auto without_yaml_errors(const InputFile& file, const Read& read) {
+/// read: one of MoveItReader's. yaml-cpp's own words for a node that is not what its reader takes it for.
+void read_moveit(Scene& scene, const InputFile& file, std::string_view what, void (MoveItReader::*read)(),
+                 const Execution& execution) {
   try {
-    return read();
+    (MoveItReader(scene, file, what, execution).*read)();
   } catch (const YAML::Exception& error) {
     throw InputError(file.name(), "expected YAML of MoveIt: " + error.msg);
   }
@@ -569,15 +543,14 @@ bool is_moveit_scene(std::string_view name, std::string_view bytes) {
 }
 
 Scene read_moveit_scene(const InputFile& file, const Execution& execution) {
-  return without_yaml_errors(file, [&] {
-    Scene scene = MoveItSceneReader(file, "a planning scene of MoveIt", execution).read();
-    scene.source = file.name();
-    return scene;
-  });
+  Scene scene;
+  read_moveit(scene, file, "a planning scene of MoveIt", &MoveItReader::read_scene, execution);
+  scene.source = file.name();
+  return scene;
 }
 
 void take_moveit_request(Scene& scene, const InputFile& file, const Execution& execution) {
-  without_yaml_errors(file, [&] { MoveItRequestReader(file, "a request of MoveIt", execution).read(scene); });
+  read_moveit(scene, file, "a request of MoveIt", &MoveItReader::read_request, execution);
 }
 
 }  // namespace warren

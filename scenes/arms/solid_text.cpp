@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "scenes/scene/convex_hull.hpp"
 
@@ -29,23 +28,6 @@ Eigen::Matrix3d turn_to(const Vec3& axis) {
   turn.col(1) = y;
   turn.col(2) = z;
   return turn;
-}
-
-/// "": nothing is wrong.
-std::string_view fault_of(std::string_view name, std::span<const double> numbers) {
-  const auto any_negative = [](std::span<const double> some) {
-    return std::ranges::any_of(some, [](double x) { return !(x >= 0.0); });
-  };
-  if (name == "obox") {
-    if (std::ranges::all_of(numbers.subspan(3, 4), [](double x) { return x == 0.0; })) {
-      return "the quaternion QX QY QZ QW must not be 0 0 0 0";
-    }
-    return any_negative(numbers.subspan(7)) ? "half the sides HX HY HZ must be at least 0" : "";
-  }
-  if (name == "box" || name == "hull") return "";
-  if (any_negative(numbers.last(1))) return "the radius must be at least 0";
-  if (name == "cylinder" && point_at(numbers, 0) == point_at(numbers, 3)) return "the two ends must differ";
-  return "";
 }
 
 void append_numbers(std::string& text, std::span<const double> numbers) {
@@ -116,39 +98,49 @@ std::array<double, 4> quaternion_of_turn(const Eigen::Matrix3d& turn) {
 
 Solid solid_of_numbers(const SolidWord& word, std::span<const double> numbers, const scene_text::Place& place,
                        const Execution& execution) {
-  if (const std::string_view fault = fault_of(word.name, numbers); !fault.empty()) {
+  const auto check = [&](bool holds, std::string_view rule) {
+    if (holds) return;
     std::string found;
     append_numbers(found, numbers);
-    place.fail(fmt::format("`{}`: {}", word.name, fault), std::string_view(found).substr(1));
-  }
+    place.fail(fmt::format("`{}`: {}", word.name, rule), std::string_view(found).substr(1));
+  };
+  constexpr std::string_view radius_rule = "the radius must be at least 0";
   Solid solid;
-  solid.given.assign(numbers.begin(), numbers.end());
   if (word.name == "sphere") {
+    check(numbers[3] >= 0.0, radius_rule);
     solid.pose.translation() = point_at(numbers, 0);
     solid.half.x() = numbers[3];
-  } else if (word.name == "box" || word.name == "obox") {
+  } else if (word.name == "box") {
     solid.kind = SolidKind::box;
-    const Vec3 first = point_at(numbers, 0);
-    const bool turned = word.name == "obox";
-    solid.pose.translation() = turned ? first : 0.5 * (first + point_at(numbers, 3));
-    solid.half = turned ? point_at(numbers, 7) : Vec3(0.5 * (point_at(numbers, 3) - first).cwiseAbs());
-    if (turned) solid.pose.linear() = turn_of_quaternion(numbers[3], numbers[4], numbers[5], numbers[6]);
+    const Vec3 a = point_at(numbers, 0);
+    const Vec3 b = point_at(numbers, 3);
+    solid.pose.translation() = 0.5 * (a + b);
+    solid.half = 0.5 * (b - a).cwiseAbs();
+  } else if (word.name == "obox") {
+    solid.kind = SolidKind::box;
+    solid.pose.translation() = point_at(numbers, 0);
+    const bool is_turn = std::ranges::any_of(numbers.subspan(3, 4), [](double x) { return x != 0.0; });
+    check(is_turn, "the quaternion QX QY QZ QW must not be 0 0 0 0");
+    solid.pose.linear() = turn_of_quaternion(numbers[3], numbers[4], numbers[5], numbers[6]);
+    solid.half = point_at(numbers, 7);
+    check((solid.half.array() >= 0.0).all(), "half the sides HX HY HZ must be at least 0");
   } else if (word.name == "hull") {
     std::vector<Vec3> points;
     for (std::size_t i = 0; i < numbers.size(); i += 3) points.push_back(point_at(numbers, i));
-    std::vector<double> given = std::move(solid.given);
     solid = convex_hull(points, place.text(), execution);
-    solid.given = std::move(given);
   } else {
     solid.kind = word.name == "capsule" ? SolidKind::capsule : SolidKind::cylinder;
     const Vec3 a = point_at(numbers, 0);
     const Vec3 b = point_at(numbers, 3);
+    check(numbers[6] >= 0.0, radius_rule);
+    check(word.name == "capsule" || a != b, "the two ends must differ");
     const Vec3 axis = b - a;
     const double length = std::sqrt(axis.dot(axis));
     if (length > 0.0) solid.pose.linear() = turn_to(axis);
     solid.pose.translation() = 0.5 * (a + b);
     solid.half = {numbers[6], 0.0, 0.5 * length};
   }
+  solid.given.assign(numbers.begin(), numbers.end());
   return solid;
 }
 

@@ -15,6 +15,7 @@
 #include <numbers>
 #include <optional>
 #include <set>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -40,9 +41,7 @@ struct UrdfGroup {
 class SrdfGroupReader {
  public:
   SrdfGroupReader(const UrdfTree& tree, const XmlFile& srdf, const Execution& execution)
-      : tree_(tree), srdf_(srdf), execution_(execution) {
-    group_.has.assign(tree.joints.size(), false);
-  }
+      : tree_(tree), srdf_(srdf), execution_(execution), group_{std::vector<bool>(tree.joints.size(), false)} {}
 
   UrdfGroup read(const std::string& name) {
     add_group(srdf_.root(), name);
@@ -104,6 +103,13 @@ class SrdfGroupReader {
   std::vector<pugi::xml_node> groups_;
   std::set<std::string> seen_;
 };
+
+/// use: what the link is for, " to be the tool".
+std::size_t link_named(const ArmFiles& files, const UrdfTree& tree, const std::string& name, std::string_view use) {
+  const std::size_t link = tree.link_named(name);
+  if (link == no_urdf_part) throw InputError(files.urdf, fmt::format("has no link of this name{}", use), name);
+  return link;
+}
 
 /// Collision meshes as hulls, each file and scale once.
 class MeshShelf {
@@ -174,7 +180,7 @@ class ArmModelMaker {
 
  private:
   static constexpr std::size_t no_variable = no_urdf_part;
-  static constexpr std::string_view to_carry = "attach a body to";
+  static constexpr std::string_view to_carry = " to attach a body to";
 
   void choose_variables() {
     variables_.assign(tree_.joints.size(), no_variable);
@@ -261,7 +267,7 @@ class ArmModelMaker {
 
   /// As said; the group's tip; else what hangs on its last joint, on as far as there is one joint, which doesn't move.
   std::size_t tool_link() const {
-    if (!files_.tool.empty()) return link_named(files_.tool, "be the tool");
+    if (!files_.tool.empty()) return link_named(files_, tree_, files_.tool, " to be the tool");
     if (group_.tip != no_urdf_part) return group_.tip;
     const std::vector<UrdfJoint>& joints = tree_.joints;
     std::size_t last = 0;
@@ -280,18 +286,13 @@ class ArmModelMaker {
   std::vector<bool> links_that_matter(std::size_t tool) const {
     std::vector<bool> matters(tree_.links.size(), false);
     matters[tool] = true;
-    for (const AttachedSolid& attached : files_.attached) matters[link_named(attached.link, to_carry)] = true;
+    for (const AttachedSolid& a : files_.attached) matters[link_named(files_, tree_, a.link, to_carry)] = true;
     for (std::size_t j = tree_.joints.size(); j-- > 0;) {
       const UrdfJoint& joint = tree_.joints[j];
       if (tree_.links[joint.below].node.child("collision")) matters[joint.below] = true;
       if (matters[joint.below]) matters[joint.above] = true;
     }
     return matters;
-  }
-  std::size_t link_named(const std::string& name, std::string_view use) const {
-    const std::size_t link = tree_.link_named(name);
-    if (link == no_urdf_part) throw InputError(files_.urdf, fmt::format("has no link of this name to {}", use), name);
-    return link;
   }
   /// Of a link, or of what is carried.
   bool is_known(std::string_view name) const {
@@ -397,7 +398,7 @@ class ArmModelMaker {
 
   void carry() {
     for (const AttachedSolid& attached : files_.attached) {
-      const std::size_t link = link_named(attached.link, to_carry);
+      const std::size_t link = link_named(files_, tree_, attached.link, to_carry);
       Solid solid = attached.solid;
       solid.pose = poses_[link] * solid.pose;
       const std::string name = solid.name.empty() ? fmt::format("what {} carries", attached.link) : solid.name;
@@ -412,25 +413,24 @@ class ArmModelMaker {
   void pair_links(const XmlFile* srdf) {
     const std::size_t count = model_.links.size();
     const std::size_t own = count - files_.attached.size();
-    std::multimap<std::string_view, std::size_t> named;
-    for (std::size_t i = 0; i < count; ++i) named.emplace(model_.links[i].name, i);
+    std::map<std::string_view, std::vector<std::size_t>> named;
+    for (std::size_t i = 0; i < count; ++i) named[model_.links[i].name].push_back(i);
+    const auto numbers_named = [&](std::string_view name) {
+      if (!is_known(name)) missing_.emplace(name);
+      const auto found = named.find(name);
+      return found != named.end() ? std::span<const std::size_t>(found->second) : std::span<const std::size_t>();
+    };
     Allowed allowed;
     const auto allow = [&](std::string_view one, std::string_view other) {
-      for (const std::string_view name : {one, other})
-        if (!is_known(name)) missing_.emplace(name);
-      const auto [first, last] = named.equal_range(one);
-      const auto [others, end] = named.equal_range(other);
-      for (auto a = first; a != last; ++a)
-        for (auto b = others; b != end; ++b) allowed.insert(ordered(a->second, b->second));
+      const auto others = numbers_named(other);
+      for (const std::size_t a : numbers_named(one))
+        for (const std::size_t b : others) allowed.insert(ordered(a, b));
     };
     if (srdf != nullptr) allow_by_srdf(*srdf, allow);
     for (const auto& [one, other] : files_.allowed) allow(one, other);
     for (std::size_t i = own; i < count; ++i) {
-      for (const std::string& link : files_.attached[i - own].may_touch) {
-        if (!is_known(link)) missing_.insert(link);
-        const auto [first, last] = named.equal_range(link);
-        for (auto a = first; a != last; ++a) allowed.insert(ordered(a->second, i));
-      }
+      for (const std::string& link : files_.attached[i - own].may_touch)
+        for (const std::size_t a : numbers_named(link)) allowed.insert(ordered(a, i));
     }
     allow_neighbours(allowed);
     for (std::size_t a = 0; a < count; ++a) {
@@ -494,14 +494,9 @@ UrdfGroup chosen_group(const ArmFiles& files, const UrdfTree& tree, const XmlFil
     return SrdfGroupReader(tree, *srdf, execution).read(files.group);
   }
   if (files.base.empty() && files.tip.empty()) return {std::vector<bool>(tree.joints.size(), true), no_urdf_part};
-  const auto link = [&](const std::string& name) {
-    const std::size_t number = tree.link_named(name);
-    if (number == no_urdf_part) throw InputError(files.urdf, "has no link of this name", name);
-    return number;
-  };
-  UrdfGroup group{std::vector<bool>(tree.joints.size(), false), link(files.tip)};
-  for (const std::size_t joint : tree.between(files.base.empty() ? tree.root : link(files.base), group.tip))
-    group.has[joint] = true;
+  UrdfGroup group{std::vector<bool>(tree.joints.size(), false), link_named(files, tree, files.tip, "")};
+  const std::size_t base = files.base.empty() ? tree.root : link_named(files, tree, files.base, "");
+  for (const std::size_t joint : tree.between(base, group.tip)) group.has[joint] = true;
   return group;
 }
 

@@ -112,7 +112,7 @@ class Reader {
   }
   bool key(std::string& name) {
     key_ = name.substr(0, longest_word);
-    look();
+    execution_.poll(++looks_);
     return true;
   }
   bool start_array(std::size_t) {
@@ -140,12 +140,9 @@ class Reader {
       --object().lists;
       return true;
     }
-    if (!position_.empty()) {
-      end_position();
-    } else {
-      chain_open_ = false;
-    }
-    if (--list_depth_ == 0) chain_open_ = false;
+    const bool ends_position = !position_.empty();
+    if (ends_position) end_position();
+    if (--list_depth_ == 0 || !ends_position) chain_open_ = false;
     if (bare_ && list_depth_ == 0) {
       end_geometry(object());
       settle(0, {});
@@ -182,10 +179,6 @@ class Reader {
   }
   bool in_coordinates() const { return list_depth_ > 0; }
   Object& object() { return objects_.back(); }
-  void look() {
-    constexpr std::size_t batch = 1 << 14;
-    if (++looks_ % batch == 0) execution_.check();
-  }
   bool scalar(const char* found) {
     if (in_coordinates()) fail("expected numbers in \"coordinates\"", found);
     if (!began_) fail("expected a GeoJSON object or an array of rings", found);
@@ -209,7 +202,7 @@ class Reader {
     }
     push_asked(c.chains.back(), {position_[0], position_[1]}, execution_);
     position_.clear();
-    look();
+    execution_.poll(++looks_);
   }
   void end_geometry(const Object& ended) {
     const int depth = depth_of(ended.type);
@@ -256,12 +249,9 @@ class Reader {
   /// Takes the pieces that wait, from the one of that number on, into the world. role: "start", "goal", "bounds", or
   /// else they are obstacles.
   void settle(std::size_t first, const std::string& role) {
+    const bool has_role = role == "start" || role == "goal" || role == "bounds";
     for (std::size_t i = first; i < waiting_.size(); ++i) {
-      if (role == "start" || role == "goal" || role == "bounds") {
-        settle_role(waiting_[i], role);
-      } else {
-        settle_obstacle(waiting_[i]);
-      }
+      has_role ? settle_role(waiting_[i], role) : settle_obstacle(waiting_[i]);
     }
     waiting_.resize(first);
   }
@@ -314,8 +304,7 @@ class Writer {
     file_.write("{\"type\": \"FeatureCollection\", \"features\": [");
   }
   void feature(std::string_view role, std::string_view type, std::string_view coordinates) {
-    constexpr std::size_t batch = 1 << 10;
-    if (++written_ % batch == 0) execution_.check();
+    execution_.poll(++written_);
     const std::string properties = role.empty() ? "{}" : fmt::format("{{\"role\": \"{}\"}}", role);
     file_.write(
         fmt::format("{}\n{{\"type\": \"Feature\", \"properties\": {}, \"geometry\": {{\"type\": \"{}\", "
@@ -325,7 +314,7 @@ class Writer {
   void ring(std::string_view role, std::span<const Vec2> corners) {
     std::string text = "[[";
     for (std::size_t i = 0; i < corners.size(); ++i) {
-      if (i % 4096 == 4095) execution_.check();
+      execution_.poll(i + 1);
       text += position(corners[i]) + ", ";
     }
     feature(role, "Polygon", text + position(corners.front()) + "]]");

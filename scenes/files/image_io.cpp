@@ -51,9 +51,8 @@ bool read_kind(std::string_view bytes, Layout& layout) {
 
 /// Without masks the fourth byte of pixels means nothing, and is 0, but where a writer has put alpha there.
 bool has_fourth_bytes(const Layout& layout, const Execution& execution) {
-  constexpr std::size_t bytes_a_look = 1 << 16;
   for (std::size_t at = 3; at < layout.row_bytes * layout.header.height; at += 4) {
-    if (at % bytes_a_look == 3) execution.check();
+    execution.poll(at / 4);
     if (layout.rows[at] != 0) return true;
   }
   return false;
@@ -108,26 +107,33 @@ std::string_view pixel_of(const Layout& layout, std::string_view row, std::size_
   return layout.palette.substr(4 * colour, 4);
 }
 
+/// Rows as they lie in the file, the lowest or the highest first: fill(i, samples) writes the samples of one.
+template <class Fill>
+void hand_rows_over(const ImageHeader& header, bool lowest_first, const ImageSink& sink, const Execution& execution,
+                    const Fill& fill) {
+  sink.begin(header);
+  const std::size_t count = std::size_t{header.channels} * header.width;
+  execution.reserve(sizeof(std::uint16_t) * count);
+  std::vector<std::uint16_t> samples(count);
+  for (std::uint32_t i = 0; i < header.height; ++i) {
+    fill(i, samples.data());
+    sink.row({lowest_first ? header.height - 1 - i : i, 0, 1, samples});
+  }
+}
+
 /// BMP: uncompressed, of 1, 4 or 8 bits with a palette, 24, or 32 whose fourth byte is alpha, as Nav2's map saver
 /// writes them and its server reads them.
 void read_bmp(const InputFile& file, const ImageSink& sink, const Execution& execution) {
-  constexpr std::size_t pixels_a_look = 1 << 14;
   const Layout layout = layout_of(file, execution);
-  const auto& [width, height, channels, maximum] = layout.header;
-  sink.begin(layout.header);
-  execution.reserve(sizeof(std::uint16_t) * channels * width);
-  std::vector<std::uint16_t> samples(std::size_t{channels} * width);
-  for (std::uint32_t i = 0; i < height; ++i) {
+  hand_rows_over(layout.header, !layout.is_top_down, sink, execution, [&](std::uint32_t i, std::uint16_t* to) {
     const std::string_view row = layout.rows.substr(i * layout.row_bytes, layout.row_bytes);
-    for (std::size_t x = 0; x < width; ++x) {
-      if (x % pixels_a_look == 0) execution.check();
+    for (std::size_t x = 0; x < layout.header.width; ++x, to += layout.header.channels) {
+      execution.poll(x);
       const std::string_view pixel = pixel_of(layout, row, x, file);
-      std::uint16_t* const to = samples.data() + channels * x;
       for (const unsigned c : {0U, 1U, 2U}) to[c] = static_cast<unsigned char>(pixel[2 - c]);
-      if (channels == 4) to[3] = static_cast<unsigned char>(pixel[3]);
+      if (layout.header.channels == 4) to[3] = static_cast<unsigned char>(pixel[3]);
     }
-    sink.row({layout.is_top_down ? i : height - 1 - i, 0, 1, samples});
-  }
+  });
 }
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\v' || c == '\f'; }
@@ -156,9 +162,8 @@ class PgmTokens {
 
  private:
   void skip() {
-    constexpr std::size_t batch = 1 << 16;
     for (std::size_t steps = 1; !rest_.empty(); ++steps) {
-      if (steps % batch == 0) execution_.check();
+      execution_.poll(steps);
       if (rest_.front() == '#') {
         rest_.remove_prefix(std::min(rest_.find('\n'), rest_.size()));
       } else if (is_space(rest_.front())) {
@@ -203,11 +208,8 @@ void read_binary(const InputFile& file, const ImageHeader& header, std::string_v
   const bool wide = header.maximum > 255;
   const std::size_t row_bytes = std::size_t{header.width} * (wide ? 2 : 1);
   check_pixels_are_there(file, header, row_bytes, pixels.size());
-  sink.begin(header);
-  execution.reserve(sizeof(std::uint16_t) * header.width);
-  std::vector<std::uint16_t> samples(header.width);
   std::size_t forgotten = 0;
-  for (std::uint32_t y = 0; y < header.height; ++y) {
+  hand_rows_over(header, false, sink, execution, [&](std::uint32_t y, std::uint16_t* samples) {
     execution.check();
     forget_all_but(pixels.substr(y * row_bytes), file, forgotten);
     const std::string_view row = pixels.substr(y * row_bytes, row_bytes);
@@ -221,8 +223,7 @@ void read_binary(const InputFile& file, const ImageHeader& header, std::string_v
                        fmt::format("expected pixels of at most {}, the maxval, in row {}", header.maximum, y),
                        fmt::format("{}", highest));
     }
-    sink.row({y, 0, 1, samples});
-  }
+  });
 }
 
 void read_ascii(const InputFile& file, const ImageHeader& header, PgmTokens& tokens, const ImageSink& sink,
@@ -232,11 +233,8 @@ void read_ascii(const InputFile& file, const ImageHeader& header, PgmTokens& tok
   if (std::uint64_t{header.width} * header.height > few_pixels) {
     check_pixels_are_there(file, header, std::size_t{2} * header.width, tokens.rest().size(), " or more");
   }
-  sink.begin(header);
-  execution.reserve(sizeof(std::uint16_t) * header.width);
-  std::vector<std::uint16_t> samples(header.width);
   std::size_t forgotten = 0;
-  for (std::uint32_t y = 0; y < header.height; ++y) {
+  hand_rows_over(header, false, sink, execution, [&](std::uint32_t, std::uint16_t* samples) {
     for (std::uint32_t x = 0; x < header.width; ++x) {
       if (x % pixels_a_look == 0) {
         execution.check();
@@ -244,8 +242,7 @@ void read_ascii(const InputFile& file, const ImageHeader& header, PgmTokens& tok
       }
       samples[x] = static_cast<std::uint16_t>(tokens.number("a pixel", 0, header.maximum));
     }
-    sink.row({y, 0, 1, samples});
-  }
+  });
 }
 
 /// PGM: P5 (binary) and P2 (ASCII), maxval up to 65535, comments anywhere in the header. What follows the pixels is

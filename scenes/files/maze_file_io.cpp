@@ -158,18 +158,15 @@ void MazeFile::check(Range tile_rows, const Execution& execution) const {
   static_assert(rows_a_band == 1U << CellBits::usual_side_log2, "a row of tiles has a checksum");
   if (execution.progress != nullptr) execution.progress->begin("read", tile_rows.size());
   enum : std::uint8_t { good, damaged, open };
-  std::vector<std::uint8_t> found(tile_rows.size(), good);
-  for_chunks(found.size(), 1, execution, [&](Range r) {
+  const auto found = parts_of_chunks(tile_rows.size(), 1, execution, [&](Range r) {
     const std::size_t number = tile_rows.first + r.first;
     const auto first_row = static_cast<std::uint32_t>(number * rows_a_band);
     const std::string_view bytes = band(number);
-    if (crc32(bytes) != sum_of_band(number)) {
-      found[r.first] = damaged;
-    } else if (!has_outline(first_row, std::min(rows(), first_row + rows_a_band))) {
-      found[r.first] = open;
-    }
+    const bool is_whole = crc32(bytes) == sum_of_band(number);
+    const bool is_closed = is_whole && has_outline(first_row, std::min(rows(), first_row + rows_a_band));
     const auto at = static_cast<std::size_t>(bytes.data() - file_.bytes().data());
     file_.forget(at, at + bytes.size());
+    return !is_whole ? damaged : is_closed ? good : open;
   });
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (found[i] == good) continue;
@@ -263,8 +260,6 @@ void write_maze_file(const Scene& scene, const std::string& path, const Executio
 
 namespace {
 
-constexpr std::uint64_t units_per_poll = std::uint64_t{1} << 16;
-
 template <class T>
 std::span<const WallOf<T>> walls_in(const InputFile& file, const NpyWalls& array) {
   const void* const data = file.bytes().data() + array.data;  // numbers lie on a multiple of 64 bytes
@@ -335,7 +330,7 @@ void NpyMaze::read(const InputFile& file, const Execution& execution) {
     for (const std::uint64_t part : parts_of_chunks(some.size(), WallsHash::grain, execution, hash_of_chunk))
       hash.add(part);
     for (std::size_t i = 0; i < some.size(); ++i) {
-      if (i % WallsHash::grain == 0) execution.check();
+      execution.poll(i);
       if (first + i >= 4) add<T>(file, first + i, some[i], execution);
     }
     file.forget(array_.data + first * sizeof(WallOf<T>), array_.data + (first + some.size()) * sizeof(WallOf<T>));
@@ -346,9 +341,6 @@ void NpyMaze::read(const InputFile& file, const Execution& execution) {
 /// Any number of walls may be as long as the maze is wide, so that units are counted, not walls.
 template <class T>
 void NpyMaze::add(const InputFile& file, std::size_t row, const WallOf<T>& wall, const Execution& execution) {
-  const auto poll = [&] {
-    if (++units_ % units_per_poll == 0) execution.check();
-  };
   const double low_x = std::min(wall.x1, wall.x2) - 0.5;  // grid lines, from 0
   const double high_x = std::max(wall.x1, wall.x2) - 0.5;
   const double low_y = std::min(wall.y1, wall.y2) - 0.5;
@@ -372,12 +364,12 @@ void NpyMaze::add(const InputFile& file, std::size_t row, const WallOf<T>& wall,
       refuse("closes a door of the maze; such walls are not read tile by tile, they must fit in memory");
     }
     for (std::uint32_t r = first_row; col > 0 && r < last_row; ++r) {
-      poll();
+      execution.poll(++units_);
       stand(col - 1, r, CellTile::right_wall);
     }
   } else {
     for (std::uint32_t c = col; first_row > 0 && c < last_col; ++c) {
-      poll();
+      execution.poll(++units_);
       stand(c, first_row - 1, CellTile::upper_wall);
     }
   }

@@ -49,7 +49,7 @@ class Picture {
         fail(i, fmt::format("expected blanks, not a tab, at column {}", tab + 1));
       }
       for (std::size_t c = 0; c <= cols_; ++c) {
-        if (c % cells_a_look == 0) execution_.check();
+        execution_.poll(c);
         i % 2 == 0 ? check_posts(i, c) : check_cells(i, c);
         if (i % 2 == 0 || c == cols_ || at(i, 4 * c + 2) != 'S') continue;
         if (has_start) fail(i, "a second `S`: one cell is the start");
@@ -62,17 +62,17 @@ class Picture {
     std::vector<Segment> walls;
     for (std::size_t i = 0; i < lines_.size(); i += 2) {
       add_runs(
-          cols_, [&](std::size_t c) { return at(i, 4 * c + 2) == '-'; },
-          [&](double from, double to) {
-            push_asked(walls, {{from, line_y(i)}, {to, line_y(i)}}, execution_);
+          walls, cols_, [&](std::size_t c) { return at(i, 4 * c + 2) == '-'; },
+          [&](double x) {
+            return Vec2{x, line_y(i)};
           });
     }
     for (std::size_t c = 0; c <= cols_; ++c) {
       const double x = static_cast<double>(c) + 0.5;
       add_runs(
-          rows_, [&](std::size_t r) { return at(lines_.size() - 2 - 2 * r, 4 * c) == '|'; },
-          [&](double from, double to) {
-            push_asked(walls, {{x, from}, {x, to}}, execution_);
+          walls, rows_, [&](std::size_t r) { return at(lines_.size() - 2 - 2 * r, 4 * c) == '|'; },
+          [&](double y) {
+            return Vec2{x, y};
           });
     }
     execution_.reserve(walls.size() * sizeof(DoubleWall));
@@ -115,15 +115,15 @@ class Picture {
     }
   }
 
-  /// Calls add(first - 0.5, last + 0.5) in cell coordinates for each run of walls.
-  template <class IsWall, class Add>
-  void add_runs(std::size_t count, const IsWall& is_wall, const Add& add) const {
+  /// A wall for each run of them, from first - 0.5 to last + 0.5 in cell coordinates; end(coordinate): where that is.
+  template <class IsWall, class End>
+  void add_runs(std::vector<Segment>& walls, std::size_t count, const IsWall& is_wall, const End& end) const {
     for (std::size_t first = 0; first < count; ++first) {
-      if (first % cells_a_look == 0) execution_.check();
+      execution_.poll(first);
       if (!is_wall(first)) continue;
       std::size_t last = first + 1;
       while (last < count && is_wall(last)) ++last;
-      add(static_cast<double>(first) + 0.5, static_cast<double>(last) + 0.5);
+      push_asked(walls, {end(static_cast<double>(first) + 0.5), end(static_cast<double>(last) + 0.5)}, execution_);
       first = last;
     }
   }
@@ -135,9 +135,7 @@ class Picture {
   }
   std::size_t first_cell(char wanted) const {
     std::size_t cell = 0;
-    while (cell < rows_ * cols_ && mark(cell) != wanted) {
-      if (++cell % cells_a_look == 0) execution_.check();
-    }
+    while (cell < rows_ * cols_ && mark(cell) != wanted) execution_.poll(++cell);
     return cell;
   }
   std::vector<double> find(char wanted) const {
@@ -180,8 +178,6 @@ class Picture {
     }
     return find('G');
   }
-
-  static constexpr std::size_t cells_a_look = 1 << 14;
 
   const std::string& name_;
   const Execution& execution_;
@@ -256,9 +252,8 @@ class NumberedCells {
   }
   template <class Visit>
   void for_cells(const Visit& visit) const {
-    constexpr std::size_t cells_a_look = 1 << 14;
     for (std::size_t i = 0; i < cells_.size(); ++i) {
-      if (i % cells_a_look == 0) execution_.check();
+      execution_.poll(i);
       visit(cells_[i]);
     }
   }

@@ -68,23 +68,20 @@ T number(std::string_view field, const scene_text::Place& place, std::string_vie
 }
 
 std::uint32_t size_line(TextLines& lines, std::string_view word) {
-  const auto expected = fmt::format("`{} N`, N from 1 to 2147483647", word);
   const std::vector<std::string_view> fields = next_words(lines);
-  if (fields.size() != 2 || fields[0] != word) {
-    lines.place().fail("expected " + expected, fields.empty() ? "" : fields[0]);
-  }
-  const auto value = number<std::uint32_t>(fields[1], lines.place(), expected);
-  if (value < 1 || value > 0x7fffffffU) lines.place().fail("expected " + expected, fields[1]);
-  return value;
+  const bool has_word = fields.size() == 2 && fields[0] == word;
+  const auto value = has_word ? scene_text::number_in_full<std::uint32_t>(fields[1]) : std::nullopt;
+  if (value && *value >= 1 && *value <= 0x7fffffffU) return *value;
+  lines.place().fail(fmt::format("expected `{} N`, N from 1 to 2147483647", word),
+                     fields.empty() ? "" : fields[has_word ? 1 : 0]);
 }
 
 /// Fills one row; returns how many cells are free.
 std::uint64_t fill_row(std::string_view line, std::uint32_t y, const scene_text::Place& place, OccupancyMap& map,
                        const Execution& execution) {
-  constexpr std::uint32_t cells_a_look = 1 << 16;
   std::uint64_t free = 0;
   for (std::uint32_t x = 0; x < map.width(); ++x) {
-    if (x % cells_a_look == 0) execution.check();
+    execution.poll(x);
     const char c = line[x];
     if (c == '.' || c == 'G' || c == 'S') {
       ++free;
@@ -211,14 +208,11 @@ OccupancyMap read_moving_ai_map(const InputFile& file, const Execution& executio
 void write_moving_ai_map(const OccupancyMap& map, const std::string& path, const Execution& execution) {
   OutputFile file(path, execution);
   file.write(fmt::format("type octile\nheight {}\nwidth {}\nmap\n", map.height(), map.width()));
-  std::string line;
-  for (std::uint32_t row = 0; row < map.height(); ++row) {
-    const std::uint32_t y = map.height() - 1 - row;
-    line.clear();
+  std::string line(map.width() + std::size_t{1}, '\n');
+  for (std::uint32_t y = map.height(); y-- > 0;) {
     for (std::uint32_t x = 0; x < map.width(); ++x) {
-      line.push_back(map.water.holds(x, y) ? 'W' : map.blocked.test(x, y) ? '@' : '.');
+      line[x] = map.water.holds(x, y) ? 'W' : map.blocked.test(x, y) ? '@' : '.';
     }
-    line.push_back('\n');
     file.write(line);
   }
   file.commit();

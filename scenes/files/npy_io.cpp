@@ -37,21 +37,17 @@ class HeaderParser {
 
   NpyWalls parse() {
     const NpyWalls header = parsed();
-    if (shape_.size() != 2 || shape_[1] != 4) {
-      fail("expected shape (n, 4), a wall x1 y1 x2 y2 a row", shape_text_);
-    }
+    if (shape_.size() != 2 || shape_[1] != 4) fail("expected shape (n, 4), a wall x1 y1 x2 y2 a row", shape_text_);
     return {header.is_float, shape_[0], header.data};
   }
-  /// Where the numbers of a potential begin, and its columns and rows of corners.
-  std::size_t parse_potential(std::size_t& columns, std::size_t& rows) {
+  /// Where the numbers of a potential begin, and its rows and columns of corners.
+  std::array<std::size_t, 3> parse_potential() {
     const NpyWalls header = parsed();
     if (header.is_float) fail("expected numbers of type <f8", "<f4");
     if (shape_.size() != 3 || shape_[0] != 2 || shape_[1] < 2 || shape_[2] < 2) {
       fail("expected a certificate, of shape (2, rows + 1, columns + 1)", shape_text_);
     }
-    rows = shape_[1];
-    columns = shape_[2];
-    return header.data;
+    return {header.data, shape_[1], shape_[2]};
   }
 
  private:
@@ -66,21 +62,15 @@ class HeaderParser {
   [[noreturn]] void fail(std::string_view what, std::string_view found) const {
     scene_text::Place{name_, 0}.fail(what, found);
   }
-  std::size_t little_endian(std::size_t at, std::size_t count) const {
-    std::size_t value = 0;
-    for (std::size_t i = count; i > 0; --i) value = value << 8U | static_cast<unsigned char>(bytes_[at + i - 1]);
-    return value;
-  }
   std::string_view dictionary(std::size_t& data) const {
     const std::size_t version =
         bytes_.size() > npy_magic.size() ? static_cast<unsigned char>(bytes_[npy_magic.size()]) : 0;
     if (version < 1 || version > 3) fail("expected .npy version 1, 2 or 3", fmt::format("version {}", version));
     const std::size_t length_bytes = version == 1 ? 2 : 4;
     const std::size_t begin = npy_magic.size() + 2 + length_bytes;
-    const std::size_t length = bytes_.size() < begin ? 0 : little_endian(begin - length_bytes, length_bytes);
-    if (length > longest_header) {
-      fail("expected a header of at most 65535 bytes", fmt::format("{} bytes", length));
-    }
+    std::uint32_t length = 0;
+    if (bytes_.size() >= begin) std::memcpy(&length, bytes_.data() + begin - length_bytes, length_bytes);
+    if (length > longest_header) fail("expected a header of at most 65535 bytes", fmt::format("{} bytes", length));
     if (bytes_.size() < begin || bytes_.size() - begin < length) {
       fail("the file ends within its header", fmt::format("{} bytes", bytes_.size()));
     }
@@ -125,7 +115,10 @@ class HeaderParser {
     shape_.clear();
     expect('(');
     while (!accept(')')) {
-      shape_.push_back(whole_number());
+      std::size_t& extent = shape_.emplace_back();
+      const auto [last, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), extent);
+      if (error != std::errc()) fail("expected a whole number in the shape", rest_);
+      rest_.remove_prefix(static_cast<std::size_t>(last - rest_.data()));
       if (!accept(',') && !rest_.starts_with(')')) fail("expected a shape like (28, 4)", shape_text_);
     }
   }
@@ -151,13 +144,6 @@ class HeaderParser {
     const std::string_view word = rest_.substr(1, end - 1);
     rest_.remove_prefix(end + 1);
     return word;
-  }
-  std::size_t whole_number() {
-    std::size_t value = 0;
-    const auto [last, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), value);
-    if (error != std::errc()) fail("expected a whole number in the shape", rest_);
-    rest_.remove_prefix(static_cast<std::size_t>(last - rest_.data()));
-    return value;
   }
 
   const std::string& name_;
@@ -346,9 +332,7 @@ void write_npy(const CellPotential& potential, const std::string& path, const Ex
 }
 
 CellPotential read_potential_npy(const InputFile& file, const Execution& execution) {
-  std::size_t columns = 0;
-  std::size_t rows = 0;
-  const std::size_t data = HeaderParser(file).parse_potential(columns, rows);
+  const auto [data, rows, columns] = HeaderParser(file).parse_potential();
   constexpr std::size_t most = std::size_t{1} << 32U;
   const std::size_t held = file.bytes().size() - data;
   if (columns >= most || rows >= most || held / sizeof(double) / 2 / columns != rows ||

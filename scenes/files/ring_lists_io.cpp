@@ -101,13 +101,12 @@ Rings rings_of_polymap(const InputFile& file, const Execution& execution) {
   numbers.word();
   if (numbers.count("the version 1", 1) != 1) numbers.fail("expected the version 1 of a polymap", "another");
   const std::size_t count = numbers.count("the number of rings", 1);
-  constexpr std::size_t corners_a_look = 1 << 14;
   Rings rings;
   while (rings.size() < count) {
     const std::size_t corners = numbers.count("the number of a ring's corners", 3);
     push_asked(rings, {{}, numbers.line()}, execution);
     for (std::size_t i = 0; i < corners; ++i) {
-      if (i % corners_a_look == 0) execution.check();
+      execution.poll(i);
       const double x = numbers.number();
       push_asked(rings.back().corners, {x, numbers.number()}, execution);
     }
@@ -205,8 +204,8 @@ void confine_to(Scene& scene, std::span<const ScenePolygon> outermost, const Exe
     push_asked(holes, ring.corners, execution);
   }
   box = box.grown(std::max(box.width(), box.height()) / 64.0);
-  const ScenePolygon around{{box.min, {box.max.x, box.min.y}, box.max, {box.min.x, box.max.y}}, outermost[0].line};
-  add_blocked(scene, around, holes, execution);
+  const auto around = box.corners();
+  add_blocked(scene, {{around.begin(), around.end()}, outermost.front().line}, holes, execution);
 }
 
 /// Free is inside an odd number of rings.

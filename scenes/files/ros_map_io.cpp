@@ -64,6 +64,10 @@ class DescriptionReader {
     d.free_thresh = fraction("free_thresh");
     d.negate = negate();
     d.mode = mode();
+    if (d.mode != Mode::raw && d.free_thresh > d.occupied_thresh) {
+      throw InputError(name_, "`free_thresh` must not be above `occupied_thresh`",
+                       fmt::format("{} > {}", d.free_thresh, d.occupied_thresh));
+    }
     return d;
   }
 
@@ -97,8 +101,7 @@ class DescriptionReader {
   bool negate() const {
     const YAML::Node node = needed("negate");
     const std::string text = node.IsScalar() ? node.Scalar() : "";
-    if (text == "0") return false;
-    if (text == "1") return true;
+    if (text == "0" || text == "1") return text == "1";
     return converted<bool>(node, "negate", "0 or 1");
   }
   Mode mode() const {
@@ -157,14 +160,14 @@ class PixelValues {
     }
   }
 
-  /// take(x, y, value, pixel) for each pixel of the run, y from the bottom.
+  /// take(*this, x, y, value, pixel) for each pixel of the run, y from the bottom.
   template <class Take>
   void row(const PixelRun& run, const Take& take) const {
     const std::uint32_t y = header_.height - 1 - run.y;
     std::uint32_t x = run.first_x;
     for (const std::uint16_t* pixel = run.samples.data(); pixel != run.samples.data() + run.samples.size();
          pixel += header_.channels, x += run.step_x) {
-      take(x, y, value_at(pixel), pixel);
+      take(*this, x, y, value_at(pixel), pixel);
     }
   }
 
@@ -215,32 +218,20 @@ std::string read_pixels(const std::string& yaml, const Description& description,
   return path;
 }
 
-Description read_description(const InputFile& yaml, const Execution& execution) {
-  const Description description = DescriptionReader(yaml, execution).read();
-  if (description.mode != Mode::raw && description.free_thresh > description.occupied_thresh) {
-    throw InputError(yaml.name(), "`free_thresh` must not be above `occupied_thresh`",
-                     fmt::format("{} > {}", description.free_thresh, description.occupied_thresh));
-  }
-  return description;
-}
-
 /// Of a map or a mask: where its cells are, and begin(header) once, then take(values, x, y, value, pixel) for each.
 template <class Cells, class Begin, class Take>
 void read_values(const InputFile& yaml, MapServerRules rules, Cells& to, const Begin& begin, const Take& take,
                  const Execution& execution) {
-  const Description description = read_description(yaml, execution);
+  const Description description = DescriptionReader(yaml, execution).read();
   to.cell = description.resolution;
   to.origin = {description.origin[0], description.origin[1]};
   to.yaw_rad = description.origin[2];
   PixelValues values(description, rules);
-  const auto take_one = [&](std::uint32_t x, std::uint32_t y, std::int8_t value, const std::uint16_t* pixel) {
-    take(values, x, y, value, pixel);
-  };
   const ImageSink sink{[&](const ImageHeader& header) {
                          values.begin(header);
                          begin(header);
                        },
-                       [&](const PixelRun& run) { values.row(run, take_one); }};
+                       [&](const PixelRun& run) { values.row(run, take); }};
   to.image = read_pixels(yaml.name(), description, sink, execution);
 }
 

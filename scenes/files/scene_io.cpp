@@ -404,8 +404,9 @@ void append_next(std::string& text, double x) {
   append_number(text, x);
 }
 
-/// An item and its numbers, one line.
+/// An item and its numbers, one line; nothing without numbers.
 void append_item(std::string& text, std::string_view item, std::span<const double> numbers) {
+  if (numbers.empty()) return;
   text.append(item);
   for (const double x : numbers) append_next(text, x);
   text.push_back('\n');
@@ -425,20 +426,10 @@ void append_polygon(std::string& text, const std::vector<Vec2>& points, const Ex
   text.push_back('\n');
 }
 
-void append_state(std::string& text, std::string_view item, const std::vector<double>& state) {
-  if (!state.empty()) append_item(text, item, state);
-}
-
-std::string number(double x) {
-  std::string digits;
-  append_number(digits, x);
-  return digits;
-}
-
 void append_named(std::string& text, std::string_view item, const NamedState& state) {
-  text += fmt::format("{} joints", item);
+  text.append(item).append(" joints");
   for (std::size_t i = 0; i < state.names.size(); ++i) {
-    text += fmt::format(" {} {}", state.names[i], number(state.values[i]));
+    append_next(text.append(" ").append(state.names[i]), state.values[i]);
   }
   text += '\n';
 }
@@ -451,7 +442,7 @@ void append_pose(std::string& text, const Eigen::Isometry3d& pose) {
 
 /// Lines that say of an arm what its robot's line does not.
 void append_arm(std::string& text, const ArmFiles& arm) {
-  for (const auto& [joint, value] : arm.held) text += fmt::format("hold {} {}\n", joint, number(value));
+  for (const auto& [joint, value] : arm.held) append_line(text, "hold " + joint, value);
   for (const auto& [first, second] : arm.allowed) text += fmt::format("allow {} {}\n", first, second);
   if (!arm.tool.empty()) text += fmt::format("tool {}\n", arm.tool);
   if (!arm.group.empty()) text += fmt::format("group {}\n", arm.group);
@@ -472,9 +463,9 @@ std::string head_of(const Scene& scene, const std::string& path) {
   }
   if (scene.clearance) append_line(text, "clearance", *scene.clearance);
   if (scene.robot) text += "robot " + robot_text(*scene.robot) + '\n';
-  append_state(text, "start", scene.start);
-  append_state(text, "goal", scene.goal);
-  for (const std::vector<double>& goal : scene.other_goals) append_state(text, "goal", goal);
+  append_item(text, "start", scene.start);
+  append_item(text, "goal", scene.goal);
+  for (const std::vector<double>& goal : scene.other_goals) append_item(text, "goal", goal);
   if (scene.named_start) append_named(text, "start", *scene.named_start);
   for (const NamedState& goal : scene.named_goals) append_named(text, "goal", goal);
   if (scene.goal_pose) append_pose(text, *scene.goal_pose);

@@ -110,9 +110,8 @@ class Tokens {
 
  private:
   void skip() {
-    constexpr std::size_t batch = 1 << 16;
     for (std::size_t steps = 1; !text_.empty() && is_wkt_space(text_.front()); ++steps) {
-      if (steps % batch == 0) execution_.check();
+      execution_.poll(steps);
       if (text_.front() == '\n') ++line_;
       text_.remove_prefix(1);
     }
@@ -145,11 +144,6 @@ class WktReader {
   }
 
  private:
-  struct Chain {
-    std::vector<Vec2> points;
-    std::size_t line;
-  };
-
   void read_srid() {
     if (!tokens_.take_word("SRID")) return;
     tokens_.expect('=');
@@ -202,42 +196,43 @@ class WktReader {
     for (int more = 0; more < 2 && tokens_.number_follows(); ++more) tokens_.number();
     return {x, y};
   }
-  Chain chain() {
-    Chain chain{{}, tokens_.line()};
+  /// Points in brackets, with the line of the first.
+  ScenePolygon chain() {
+    ScenePolygon chain{{}, tokens_.line()};
     if (tokens_.take_word("EMPTY")) return chain;
     list([&] {
-      if (chain.points.empty()) chain.line = tokens_.line();
-      push_asked(chain.points, position(), execution_);
+      if (chain.corners.empty()) chain.line = tokens_.line();
+      push_asked(chain.corners, position(), execution_);
     });
     return chain;
   }
   void line() {
-    const Chain read = chain();
-    if (read.points.size() == 1) fail_at(read.line, "a LINESTRING needs two positions or more");
-    walls_.add_chain(read.points);
+    const ScenePolygon read = chain();
+    if (read.corners.size() == 1) fail_at(read.line, "a LINESTRING needs two positions or more");
+    walls_.add_chain(read.corners);
   }
   /// The first ring; the others are its holes.
   void polygon() {
     if (tokens_.take_word("EMPTY")) return;
-    Chain outline{{}, tokens_.line()};
+    ScenePolygon outline{{}, tokens_.line()};
     std::vector<std::vector<Vec2>> holes;
     list([&] {
-      Chain ring = chain();
-      if (ring.points.empty()) return;
-      const bool closed = ring.points.front() == ring.points.back();
-      if (ring.points.size() < 4 || !closed) {
+      ScenePolygon ring = chain();
+      if (ring.corners.empty()) return;
+      const bool closed = ring.corners.front() == ring.corners.back();
+      if (ring.corners.size() < 4 || !closed) {
         fail_at(ring.line, "a ring needs four positions or more, the last one equal to the first",
-                closed ? fmt::format("{} positions", ring.points.size()) : "an open ring");
+                closed ? fmt::format("{} positions", ring.corners.size()) : "an open ring");
       }
-      ring.points.pop_back();
-      if (outline.points.empty()) {
+      ring.corners.pop_back();
+      if (outline.corners.empty()) {
         outline = std::move(ring);
       } else {
-        push_asked(holes, std::move(ring.points), execution_);
+        push_asked(holes, std::move(ring.corners), execution_);
       }
     });
-    if (outline.points.empty()) return;
-    if (!add_without_holes(scene_, outline.line, std::move(outline.points), holes, execution_)) {
+    if (outline.corners.empty()) return;
+    if (!add_without_holes(scene_, outline.line, std::move(outline.corners), holes, execution_)) {
       fail_at(outline.line, misplaced_hole);
     }
   }
@@ -274,22 +269,21 @@ void write_wkt(const Scene& scene, const std::string& path, const Execution& exe
   if (has_solids(scene) || scene.bounds) {
     throw InputError(path, "WKT holds polygons and walls alone; write bounds and solids to a .scene or .geojson file");
   }
-  constexpr std::size_t batch = 1 << 10;
   OutputFile file(path, execution);
   std::size_t written = 0;
   for (const ScenePolygon& polygon : scene.polygons) {
-    if (++written % batch == 0) execution.check();
+    execution.poll(++written);
     std::string text = "POLYGON ((";
     const std::vector<Vec2> corners = anticlockwise(polygon.corners);
     for (const Vec2 p : corners) {
-      if (++written % batch == 0) execution.check();
+      execution.poll(++written);
       text += position_text(p) + ", ";
     }
     file.write(text + position_text(corners.front()) + "))\n");
   }
   scene.walls.visit([&](auto walls) {
     for (const auto& wall : walls) {
-      if (++written % batch == 0) execution.check();
+      execution.poll(++written);
       const Segment s = wall.segment();
       file.write("LINESTRING (" + position_text(s.a) + ", " + position_text(s.b) + ")\n");
     }

@@ -1,24 +1,357 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What all maze algorithms share: names, the cells, loops, and the scene around the walls. Loops are chosen by
-// selection sampling (Knuth, TAOCP 2, 3.4.2, algorithm S): one pass over the walls, exactly the number asked for, each
-// subset as likely as any other.
-
+// The algorithms but mst, and what all share: names, the cells, loops, and the scene around the walls. Mazes that grow
+// cell by cell: recursive backtracker, randomised Prim, and Wilson's loop-erased walks. Mazes that join regions of
+// cells: randomised Kruskal, and the biased one of the course. Each carve_* takes cells whose walls all stand and
+// opens rows * cols - 1 of them so that every cell reaches every other in exactly one way; scratch bits in the cells'
+// bytes may stay behind. Loops are chosen by selection sampling (Knuth, TAOCP 2, 3.4.2, algorithm S): one pass over
+// the walls, exactly the number asked for, each subset as likely as any other.
 #include "scenes/mazes/maze_generator.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "core/base/error.hpp"
+#include "core/base/raw_vector.hpp"
 #include "core/base/rng.hpp"
+#include "core/search/union_find.hpp"
+#include "parallel/asked_memory.hpp"
 #include "parallel/chunks.hpp"
-#include "scenes/mazes/maze_carving.hpp"
 #include "scenes/mazes/spanning_maze.hpp"
+
+namespace warren::maze {
+namespace {
+
+/// Scratch bits of a cell's byte while a maze is carved.
+constexpr std::uint8_t in_maze = 4;
+constexpr std::uint8_t in_frontier = 8;
+constexpr std::uint8_t outside = 0x80;   ///< marks the gap bytes
+constexpr unsigned direction_shift = 4;  ///< two bits hold a direction
+constexpr std::uint8_t direction_bits = 3U << direction_shift;
+
+/// Directions are 0 right, 1 up, 2 left, 3 down; the opposite is d ^ 2.
+class Steps {
+ public:
+  explicit Steps(MazeCells& cells)
+      : bytes_(cells.bytes().data()),
+        end_(cells.bytes().size()),
+        offsets_{static_cast<std::ptrdiff_t>(cells.stride()), 1, -static_cast<std::ptrdiff_t>(cells.stride()), -1} {}
+
+  /// The neighbour's index; may be a gap byte, and right of the last or left of the first column it is no index at all.
+  std::size_t neighbour(std::size_t i, unsigned d) const { return i + static_cast<std::size_t>(offsets_[d]); }
+  bool is_index(std::size_t i) const { return i < end_; }
+  std::uint8_t& operator[](std::size_t i) const { return bytes_[i]; }
+
+  /// Takes out the wall between cell i and its neighbour in direction d.
+  void open(std::size_t i, unsigned d) const {
+    const std::size_t owner = d < 2 ? i : neighbour(i, d);
+    bytes_[owner] = static_cast<std::uint8_t>(bytes_[owner] & ~(1U << (d & 1U)));
+  }
+  /// Which of the four neighbours exist and have exactly `value` among `bits`; bit d stands for direction d. Gap bytes
+  /// are looked at like cells, so they must differ.
+  unsigned neighbours_with(std::size_t i, std::uint8_t bits, std::uint8_t value) const {
+    unsigned mask = (bytes_[i + 1] & bits) == value ? 2U : 0U;
+    mask |= (bytes_[i - 1] & bits) == value ? 8U : 0U;
+    if (is_index(neighbour(i, 0))) mask |= (bytes_[neighbour(i, 0)] & bits) == value ? 1U : 0U;
+    if (i > static_cast<std::size_t>(offsets_[0])) mask |= (bytes_[neighbour(i, 2)] & bits) == value ? 4U : 0U;
+    return mask;
+  }
+
+ private:
+  std::uint8_t* bytes_;
+  std::size_t end_;
+  std::array<std::ptrdiff_t, 4> offsets_;
+};
+
+/// By mask of directions, 1 to 15: twelve of them, each as often as the others.
+constexpr std::array<std::uint8_t, 256> direction_choices = [] {
+  std::array<std::uint8_t, 256> choices{};
+  for (unsigned mask = 1; mask < 16; ++mask) {
+    std::array<std::uint8_t, 4> candidates{};
+    unsigned count = 0;
+    for (std::uint8_t d = 0; d < 4; ++d) {
+      if ((mask >> d & 1U) != 0) candidates[count++] = d;
+    }
+    for (unsigned k = 0; k < 12; ++k) choices[mask * 16 + k] = candidates[k % count];
+  }
+  return choices;
+}();
+/// One of the directions in a mask: one random number below 12 serves 1, 2, 3 and 4 candidates alike.
+unsigned choose_direction(unsigned mask, SequentialRng& rng) { return direction_choices[mask * 16 + rng.below(12)]; }
+
+/// Looks at the deadline every 16384th step and tells how many cells are carved.
+class StepPoll {
+ public:
+  explicit StepPoll(const Execution& execution) : execution_(execution) {}
+  void step(std::uint64_t carved) {
+    if ((++steps_ & 0x3fffU) != 0) return;
+    execution_.check();
+    execution_.advance(carved - told_);
+    told_ = carved;
+  }
+
+ private:
+  const Execution& execution_;
+  std::uint64_t steps_ = 0;
+  std::uint64_t told_ = 0;
+};
+
+/// The parents of 0 .. count - 1 as root_of() and unite() take them, each a region of its own. Throws Stopped.
+template <class Id>
+RawVector<Id> single_regions(std::size_t count, const Execution& execution) {
+  RawVector<Id> parents(count);
+  for_each_index(count, std::size_t{1} << 16, {execution.threads, execution.deadline},
+                 [&](std::size_t i) { parents[i] = static_cast<Id>(i); });
+  return parents;
+}
+
+/// Gives the gap bytes further bits, so that no walk enters them.
+void mark_gaps(MazeCells& cells, std::uint8_t bits, const Execution& execution) {
+  constexpr std::size_t grain = std::size_t{1} << 18;
+  const auto bytes = cells.bytes();
+  for_each_index(cells.cols() + std::size_t{1}, grain, {execution.threads, execution.deadline},
+                 [&](std::size_t gap) { bytes[gap * cells.stride()] |= bits; });
+}
+
+/// Recursive backtracker: a depth-first walk that goes to a random neighbour not yet visited and, where there is none,
+/// one step back. Long winding corridors, few dead ends. Needs no stack: the way back is a direction of two bits in
+/// each cell's own byte, so the whole generator lives in 1 byte a cell. Each cell is entered once and left back once:
+/// O(cells), 30 to 60 ns each; the walk is local, so caches serve it at any size.
+void carve_backtracker(MazeCells& cells, std::uint64_t seed, const Execution& execution) {
+  mark_gaps(cells, in_maze, execution);
+  const Steps at(cells);
+  SequentialRng rng(seed);
+  StepPoll poll(execution);
+  std::size_t i = cells.index(0, 0);
+  at[i] |= in_maze;
+  for (std::uint64_t left = cells.cell_count() - 1; left > 0;) {
+    poll.step(cells.cell_count() - left);
+    const unsigned unvisited = at.neighbours_with(i, in_maze, 0);
+    if (unvisited == 0) {
+      i = at.neighbour(i, at[i] >> direction_shift & 3U);
+      continue;
+    }
+    const unsigned d = choose_direction(unvisited, rng);
+    at.open(i, d);
+    i = at.neighbour(i, d);
+    at[i] = static_cast<std::uint8_t>(at[i] | in_maze | (d ^ 2U) << direction_shift);
+    --left;
+  }
+}
+
+/// Randomised Prim, the variant over cells: the maze grows from its middle by a random cell of the frontier, joined to
+/// a random neighbour that is in the maze already. Short dead ends, direct ways. O(cells); the frontier is a list of
+/// cells, a few times the longer side.
+void carve_prim(MazeCells& cells, std::uint64_t seed, const Execution& execution) {
+  mark_gaps(cells, in_frontier, execution);  // never fresh, and never in the maze
+  const Steps at(cells);
+  SequentialRng rng(seed);
+  StepPoll poll(execution);
+  std::vector<std::size_t> frontier;
+  const auto add_to_maze = [&](std::size_t i) {
+    at[i] |= in_maze;
+    const unsigned fresh = at.neighbours_with(i, in_maze | in_frontier, 0);
+    for (unsigned d = 0; d < 4; ++d) {
+      if ((fresh >> d & 1U) == 0) continue;
+      const std::size_t to = at.neighbour(i, d);
+      at[to] |= in_frontier;
+      push_asked(frontier, to, execution);
+    }
+  };
+  add_to_maze(cells.index(cells.cols() / 2, cells.rows() / 2));
+  for (std::uint64_t carved = 1; !frontier.empty(); ++carved) {
+    poll.step(carved);
+    std::size_t& drawn = frontier[rng.below(frontier.size())];
+    const std::size_t i = drawn;
+    drawn = frontier.back();
+    frontier.pop_back();
+    at.open(i, choose_direction(at.neighbours_with(i, in_maze, in_maze), rng));
+    add_to_maze(i);
+  }
+}
+
+/// Wilson's algorithm (STOC 1996): loop-erased random walks, each from the next cell outside the tree until it meets
+/// the tree. Every perfect maze is equally likely: a uniform spanning tree. A walk leaves in each cell the direction in
+/// which it was last left, two bits of the cell's byte, so loops erase themselves and 1 byte a cell is all. The root is
+/// the middle cell: the tree's law doesn't depend on it, the expected number of steps (4 times the sum of the effective
+/// resistances to it, about 10 a cell at 1000 x 1000, growing with the logarithm of the side) is least there.
+void carve_wilson(MazeCells& cells, std::uint64_t seed, const Execution& execution) {
+  mark_gaps(cells, in_maze | outside, execution);
+  const Steps at(cells);
+  SequentialRng rng(seed);
+  std::uint64_t bits = 0;  // two a direction
+  unsigned left = 0;       // directions in them
+  const auto draw_direction = [&] {
+    if (left == 0) {
+      bits = rng.next();
+      left = 32;
+    }
+    --left;
+    return static_cast<unsigned>(std::exchange(bits, bits >> 2) & 3U);
+  };
+  StepPoll poll(execution);
+  std::uint64_t carved = 0;
+  at[cells.index(cells.cols() / 2, cells.rows() / 2)] |= in_maze;
+  for (std::size_t begin = 1; begin < cells.bytes().size(); ++begin) {
+    poll.step(carved);
+    for (std::size_t i = begin; (at[i] & in_maze) == 0;) {  // no step for gap bytes: they count as tree
+      poll.step(carved);
+      const unsigned d = draw_direction();
+      const std::size_t to = at.neighbour(i, d);
+      if (!at.is_index(to) || (at[to] & outside) != 0) continue;  // draw again: uniform among those that exist
+      at[i] = static_cast<std::uint8_t>((at[i] & ~direction_bits) | d << direction_shift);
+      i = to;
+    }
+    for (std::size_t i = begin; (at[i] & in_maze) == 0; ++carved) {
+      const unsigned d = at[i] >> direction_shift & 3U;
+      at[i] |= in_maze;
+      at.open(i, d);
+      i = at.neighbour(i, d);
+    }
+  }
+}
+
+__extension__ using Wide = unsigned __int128;
+
+/// A number in [0, n); there may be more than 2^32 walls.
+std::size_t below(std::size_t n, SequentialRng& rng) {
+  return static_cast<std::size_t>(static_cast<Wide>(rng.next()) * n >> 64);
+}
+
+/// All interior walls: twice the index of the cell that owns the wall, plus 1 for its upper one.
+template <class Id>
+RawVector<Id> wall_numbers(const MazeCells& cells, const Execution& execution) {
+  const std::uint64_t count = 2 * cells.cell_count() - cells.rows() - cells.cols();
+  RawVector<Id> walls(count);
+  std::size_t n = 0;
+  for (std::uint32_t col = 0; col < cells.cols(); ++col) {
+    for (std::uint32_t row = 0; row < cells.rows(); ++row) {
+      const std::size_t i = cells.index(col, row);
+      if ((i & 0xffffU) == 0) execution.check();
+      if (col + 1 < cells.cols()) walls[n++] = static_cast<Id>(2 * i);
+      if (row + 1 < cells.rows()) walls[n++] = static_cast<Id>(2 * i + 1);
+    }
+  }
+  return walls;
+}
+
+template <class Id>
+void carve(MazeCells& cells, std::uint64_t seed, const Execution& execution) {
+  execution.reserve((2 * cells.cell_count() + cells.bytes().size()) * sizeof(Id));
+  RawVector<Id> walls = wall_numbers<Id>(cells, execution);
+  RawVector<Id> regions = single_regions<Id>(cells.bytes().size(), execution);
+  const Steps at(cells);
+  SequentialRng rng(seed);
+  StepPoll poll(execution);
+  std::size_t left = walls.size();
+  for (std::uint64_t carved = 1; carved < cells.cell_count();) {
+    poll.step(carved);
+    const std::size_t drawn = below(left, rng);
+    const Id wall = walls[drawn];
+    walls[drawn] = walls[--left];
+    const auto i = static_cast<Id>(wall / 2);
+    const unsigned d = wall % 2;
+    if (!unite(regions, i, static_cast<Id>(at.neighbour(i, d)))) continue;
+    at.open(i, d);
+    ++carved;
+  }
+}
+
+/// Cells, numbered column by column from 0, and their place counted from 1 as the course does.
+struct Place {
+  std::uint64_t col, row;
+};
+
+/// Square blocks of side min(rows, cols) / parts, a rational number: parts is the least odd number >= 3 that makes it
+/// 12 at most. Even blocks prefer to open upwards and downwards, odd ones sideways.
+class Blocks {
+ public:
+  Blocks(std::uint64_t rows, std::uint64_t cols) : side_(std::min(rows, cols)) {
+    while (side_ > 12 * parts_) parts_ += 2;
+    blocks_across_ = block_of(cols);
+  }
+  bool is_even(Place p) const { return (block_of(p.row) * blocks_across_ + block_of(p.col)) % 2 == 0; }
+
+ private:
+  std::uint64_t block_of(std::uint64_t k) const { return (k * parts_ + side_ - 1) / side_; }
+  std::uint64_t side_;
+  std::uint64_t parts_ = 3;
+  std::uint64_t blocks_across_ = 0;
+};
+
+/// Randomised Kruskal: the interior walls in random order, each taken out if it parts two regions. Many short dead
+/// ends. The order is a Fisher-Yates shuffle done as it is consumed, so it ends with the last join. O(cells) in
+/// practice, about 12 bytes a cell besides the cells (two wall numbers and one parent), 24 from 2^31 bytes of cells on.
+void carve_kruskal(MazeCells& cells, std::uint64_t seed, const Execution& execution) {
+  if (cells.bytes().size() <= std::numeric_limits<std::uint32_t>::max() / 2) {
+    carve<std::uint32_t>(cells, seed, execution);
+  } else {
+    carve<std::uint64_t>(cells, seed, execution);
+  }
+}
+
+/// The maze generator of the robotics course whose assignment started this project: a biased randomised Kruskal. Of 15
+/// cells drawn at random the one is taken that is not yet joined to the first cell, then that nearest to it (col +
+/// row), then the first drawn; one of its walls is drawn with a preference that changes from block to block, and goes
+/// if it parts two regions. So growth starts near the entrance, and patches of long horizontal and vertical corridors
+/// appear. Expected O(cells log cells), 1 to 2 microseconds a cell; 5 bytes a cell.
+void carve_course(MazeCells& cells, std::uint64_t seed, const Execution& execution) {
+  execution.reserve(cells.cell_count() * sizeof(std::uint32_t));
+  const Steps at(cells);
+  RawVector<std::uint32_t> regions = single_regions<std::uint32_t>(cells.cell_count(), execution);
+  const Blocks blocks(cells.rows(), cells.cols());
+  SequentialRng rng(seed);
+  StepPoll poll(execution);
+  const std::uint32_t rows = cells.rows();
+  const auto place = [&](std::uint32_t cell) { return Place{cell / rows + 1U, cell % rows + 1U}; };
+  const auto draw_cell = [&] {
+    constexpr int draws = 15;
+    const std::uint32_t home = root_of(regions, std::uint32_t{0});
+    std::uint32_t best = 0;
+    std::uint64_t best_key = ~std::uint64_t{0};
+    for (int k = 0; k < draws; ++k) {
+      const auto cell = static_cast<std::uint32_t>(rng.below(cells.cell_count()));
+      const Place p = place(cell);
+      const std::uint64_t joined = root_of(regions, cell) == home ? 1 : 0;
+      const std::uint64_t key = joined << 40 | (p.col + p.row);
+      if (key < best_key) {
+        best_key = key;
+        best = cell;
+      }
+    }
+    return best;
+  };
+  const auto draw_direction = [&](Place p) {
+    constexpr std::array<unsigned, 4> plain{2, 0, 3, 1};  // the course's 1 .. 4: -x, +x, -y, +y
+    const std::uint64_t drawn = rng.below(8);
+    if (drawn < 4) return plain[drawn];
+    const unsigned backward = blocks.is_even(p) ? 3 : 2;
+    return drawn < 6 ? backward : backward ^ 2U;
+  };
+  for (std::uint64_t carved = 1; carved < cells.cell_count();) {
+    poll.step(carved);
+    const std::uint32_t cell = draw_cell();
+    const Place p = place(cell);
+    const unsigned d = draw_direction(p);
+    const bool has_neighbour = d == 0 ? p.col < cells.cols() : d == 1 ? p.row < rows : d == 2 ? p.col > 1 : p.row > 1;
+    if (!has_neighbour) continue;
+    const std::uint32_t neighbour = d == 0 ? cell + rows : d == 1 ? cell + 1 : d == 2 ? cell - rows : cell - 1;
+    if (!unite(regions, cell, neighbour)) continue;
+    at.open(cells.index(static_cast<std::uint32_t>(p.col - 1), static_cast<std::uint32_t>(p.row - 1)), d);
+    ++carved;
+  }
+}
+
+}  // namespace
+}  // namespace warren::maze
 
 namespace warren {
 namespace {
@@ -34,11 +367,6 @@ void check_size(std::uint32_t rows, std::uint32_t cols) {
   if (count >= 1 && count <= std::numeric_limits<std::uint32_t>::max()) return;
   throw InputError("maze", "rows and columns must be at least 1 and rows x columns below 2^32",
                    fmt::format("{}x{}", rows, cols));
-}
-
-void clear_scratch(MazeCells& cells, const Execution& execution) {
-  const std::span<std::uint8_t> bytes = cells.bytes();
-  for_each_index(bytes.size(), generator_grain, execution, [&](std::size_t i) { bytes[i] &= MazeCells::all_walls; });
 }
 
 /// Takes out exactly `count` of the `standing` interior walls.
@@ -167,18 +495,19 @@ MazeCells generate_maze(const MazeOptions& options, const Execution& execution) 
   if (!(options.loops >= 0.0 && options.loops <= 1.0)) {
     throw InputError("maze", "loops must be a fraction from 0 to 1", fmt::format("{}", options.loops));
   }
-  MazeCells cells(options.rows, options.cols, {execution.threads, execution.deadline});
+  const Execution quiet{execution.threads, execution.deadline};
+  MazeCells cells(options.rows, options.cols, quiet);
   if (execution.progress != nullptr) execution.progress->begin("generate", cells.cell_count());
   if (options.algorithm == MazeAlgorithm::mst) {
-    const Execution quiet{execution.threads, execution.deadline};
     fill_cells(SpanningMaze(options.rows, options.cols, options.seed, options.loops, quiet), cells, quiet,
                execution.progress);
     return cells;
   }
   carvers.at(static_cast<std::size_t>(options.algorithm))(cells, options.seed, execution);
-  clear_scratch(cells, {execution.threads, execution.deadline});
+  const std::span<std::uint8_t> bytes = cells.bytes();
+  for_each_index(bytes.size(), generator_grain, quiet, [&](std::size_t i) { bytes[i] &= MazeCells::all_walls; });
   if (options.loops > 0.0) {
-    const std::uint64_t standing = interior_walls(cells, {execution.threads, execution.deadline});
+    const std::uint64_t standing = interior_walls(cells, quiet);
     const auto count = static_cast<std::uint64_t>(std::round(options.loops * static_cast<double>(standing)));
     open_loops(cells, std::min(count, standing), standing, options.seed, execution);
   }
@@ -194,10 +523,10 @@ Scene unmade_maze_scene(const MazeOptions& options) {
 
 Scene maze_scene(const MazeOptions& options, bool merged, const Execution& execution) {
   check_size(options.rows, options.cols);
-  const std::uint64_t interior = (std::uint64_t{options.rows} - 1) * (options.cols - 1);
   if (!merged) {
-    const std::size_t wall_bytes = maze_wall_bytes(options.rows, options.cols);
-    execution.reserve(std::uint64_t{options.rows} * options.cols + interior * wall_bytes);
+    const std::uint64_t interior = (std::uint64_t{options.rows} - 1) * (options.cols - 1);
+    execution.reserve(std::uint64_t{options.rows} * options.cols +
+                      interior * maze_wall_bytes(options.rows, options.cols));
   }
   const MazeCells cells = generate_maze(options, execution);
   Scene scene;

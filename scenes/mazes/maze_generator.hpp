@@ -3,7 +3,6 @@
 // point (c, r), c in 1..cols, r in 1..rows; the outline opens at the left of (1, 1) and at the right of (cols, rows).
 // Carving is serial by nature and needs, cells included, 1 byte a cell for backtracker and wilson, 1 and the frontier
 // for prim, 13 for kruskal and 5 for course; mst (spanning_maze.hpp) and all else is parallel.
-// The algorithms: maze_carving.cpp.
 #pragma once
 
 #include <array>

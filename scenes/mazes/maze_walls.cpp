@@ -1,16 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Walls of a maze from its bits, from walls back to cells, and the flood over cells. For walls, cells are cut into
+// runs of 65536 in storage order (column by column); one pass counts the walls that each run owns, sums give its place
+// in the output, a second pass writes. Unit walls are written without branches through a small buffer that stays in
+// the first cache: about 1.5 ns a wall, bound by the memory written to. The flood is a depth-first walk without a
+// stack: a cell's byte holds the directions still to be tried and the way back. Each direction of each cell is tried
+// once: about 10 ns a cell, and a byte a cell whatever the maze looks like (the frontier of a breadth-first flood has
+// no such bound).
+#include <fmt/format.h>
+
+#include <Eigen/Core>
 #include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <span>
 #include <type_traits>
 
+#include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 
 namespace warren {
 namespace {
-
-// Walls of a maze from its bits. Cells are cut into runs of 65536 in storage order (column by column); one pass counts
-// the walls that each run owns, sums give its place in the output, a second pass writes. Unit walls are written without
-// branches through a small buffer that stays in the first cache: about 1.5 ns a wall, bound by the memory written to.
 
 constexpr std::size_t wall_grain = std::size_t{1} << 16;
 constexpr std::uint32_t largest_float_side = (1U << 23U) - 1;  // side + 0.5 is a float up to here
@@ -90,6 +101,7 @@ class WallStarts {
   }
   /// Of a column in the maze.
   std::uint32_t col_of(std::uint32_t col) const { return columns_.first + col; }
+  const MazeCells& cells() const { return cells_; }
   bool merged() const { return merged_; }
   /// Walls that start in a run.
   std::size_t count(const Run& run) const { return merged_ ? count_merged(run) : count_units(run); }
@@ -146,7 +158,8 @@ class WallWriter : NotCopied {
 };
 
 template <class Wall, class Writer>
-void write_units(const MazeCells& cells, const WallStarts& starts, const Run& run, Writer& writer) {
+void write_units(const WallStarts& starts, const Run& run, Writer& writer) {
+  const MazeCells& cells = starts.cells();
   const std::uint8_t* bytes = cells.bytes().data() + cells.index(run.col, 0);
   const unsigned interior = starts.interior_of(run.col);
   const std::uint32_t col = starts.col_of(run.col);
@@ -180,12 +193,13 @@ std::array<Wall, 4> outline(std::uint32_t rows, std::uint32_t cols) {
 }
 
 /// Where the walls of each chunk of these cells stand, behind the first `before`; and the end.
-std::vector<std::size_t> places_of(const MazeCells& cells, const WallStarts& starts, Range some, std::size_t before,
+std::vector<std::size_t> places_of(const WallStarts& starts, Range some, std::size_t before,
                                    const Execution& execution) {
   std::vector<std::size_t> places(chunk_count(some.size(), wall_grain) + 1, 0);
   for_chunks(some.size(), wall_grain, {execution.threads, execution.deadline}, [&](Range r) {
     std::size_t n = 0;
-    for_runs(cells, {some.first + r.first, some.first + r.last}, [&](const Run& run) { n += starts.count(run); });
+    for_runs(starts.cells(), {some.first + r.first, some.first + r.last},
+             [&](const Run& run) { n += starts.count(run); });
     places[r.first / wall_grain + 1] = n;
   });
   places[0] = before;
@@ -195,12 +209,12 @@ std::vector<std::size_t> places_of(const MazeCells& cells, const WallStarts& sta
 
 /// Writes the walls of these cells, whose chunks' places places_of() has told.
 template <class Wall>
-void write_walls(const MazeCells& cells, const WallStarts& starts, Range some, std::span<const std::size_t> places,
-                 Wall* walls, const Execution& execution) {
+void write_walls(const WallStarts& starts, Range some, std::span<const std::size_t> places, Wall* walls,
+                 const Execution& execution) {
   for_chunks(some.size(), wall_grain, execution, [&](Range r) {
     WallWriter<Wall> writer(walls + places[r.first / wall_grain]);
-    for_runs(cells, {some.first + r.first, some.first + r.last}, [&](const Run& run) {
-      starts.merged() ? write_merged<Wall>(starts, run, writer) : write_units<Wall>(cells, starts, run, writer);
+    for_runs(starts.cells(), {some.first + r.first, some.first + r.last}, [&](const Run& run) {
+      starts.merged() ? write_merged<Wall>(starts, run, writer) : write_units<Wall>(starts, run, writer);
     });
   });
 }
@@ -236,12 +250,12 @@ class WallComparer {
 template <class Wall>
 bool has_walls_as(std::span<const Wall> walls, const MazeCells& cells, const Execution& execution) {
   const WallStarts starts(cells, false);
-  const std::vector<std::size_t> places = places_of(cells, starts, {0, cells.cell_count()}, 4, execution);
+  const std::vector<std::size_t> places = places_of(starts, {0, cells.cell_count()}, 4, execution);
   const std::array<Wall, 4> frame = outline<Wall>(cells.rows(), cells.cols());
   if (walls.size() != places.back() || !std::equal(frame.begin(), frame.end(), walls.begin())) return false;
   const std::size_t first_other = first_in_chunks(cells.cell_count(), wall_grain, execution, [&](Range r) {
     WallComparer<Wall> comparer(walls.data() + places[r.first / wall_grain]);
-    for_runs(cells, r, [&](const Run& run) { write_units<Wall>(cells, starts, run, comparer); });
+    for_runs(cells, r, [&](const Run& run) { write_units<Wall>(starts, run, comparer); });
     return comparer.same() ? r.last : r.first;
   });
   return first_other == cells.cell_count();
@@ -250,12 +264,12 @@ bool has_walls_as(std::span<const Wall> walls, const MazeCells& cells, const Exe
 template <class Wall>
 WallSet walls_as(const MazeCells& cells, bool merged, const Execution& execution) {
   const WallStarts starts(cells, merged);
-  const std::vector<std::size_t> places = places_of(cells, starts, {0, cells.cell_count()}, 4, execution);
+  const std::vector<std::size_t> places = places_of(starts, {0, cells.cell_count()}, 4, execution);
   const std::array<Wall, 4> frame = outline<Wall>(cells.rows(), cells.cols());
   execution.reserve(places.back() * sizeof(Wall));
   RawVector<Wall> walls(places.back());
   std::copy(frame.begin(), frame.end(), walls.begin());
-  write_walls(cells, starts, {0, cells.cell_count()}, places, walls.data(), execution);
+  write_walls(starts, {0, cells.cell_count()}, places, walls.data(), execution);
   return WallSet(std::move(walls));
 }
 
@@ -326,23 +340,145 @@ void note_runs(const WallStrip& strip, std::span<std::uint16_t> runs, const Exec
 }
 
 template <class T>
-void write_strip(const MazeCells& cells, Range own, const WallStarts& starts,
-                 const std::function<void(std::string_view)>& take, const Execution& execution) {
+void write_strip(const WallStarts& starts, Range own, const std::function<void(std::string_view)>& take,
+                 const Execution& execution) {
   RawVector<WallOf<T>> walls;
   for (std::uint64_t first = own.first; first < own.last; first += cells_a_piece) {
     const Range some{first, std::min(first + cells_a_piece, own.last)};
-    const std::vector<std::size_t> places = places_of(cells, starts, some, 0, execution);
+    const std::vector<std::size_t> places = places_of(starts, some, 0, execution);
     if (places.back() > walls.capacity()) execution.reserve(places.back() * sizeof(WallOf<T>));
     walls.resize(places.back());
-    write_walls(cells, starts, some, places, walls.data(), quietly(execution));
+    write_walls(starts, some, places, walls.data(), quietly(execution));
     take(bytes_of<T>(walls));
   }
+}
+
+constexpr std::size_t flood_grain = std::size_t{1} << 16;
+constexpr std::int64_t units_per_look = std::int64_t{1} << 16;
+
+/// Do all walls lie on the grid? Grid lines are numbered from 0: line k is the coordinate k + 0.5. Branch-free, four
+/// lanes at once: adding and taking away 2^23 (2^52) rounds k to a whole number. Differences from that, and products of
+/// a wall's two extents, are summed and stay zero; a NaN stays in the sums. k itself is exact wherever it passes, for a
+/// float too as long as there are less than 2^23 lines.
+template <class T>
+bool all_on_grid(std::span<const WallOf<T>> walls, MazeHint hint) {
+  using Lanes = Eigen::Array<T, 4, 1>;
+  constexpr T whole = static_cast<T>(std::uint64_t{1} << (std::numeric_limits<T>::digits - 1));
+  const Lanes last(static_cast<T>(hint.cols), static_cast<T>(hint.rows), static_cast<T>(hint.cols),
+                   static_cast<T>(hint.rows));
+  Lanes off = Lanes::Zero();
+  Lanes excess = Lanes::Zero();
+  T oblique = 0;
+  for (const WallOf<T>& w : walls) {
+    const Lanes k = Lanes(w.x1, w.y1, w.x2, w.y2) - T{0.5};
+    off += (((k + whole) - whole) - k).abs();
+    excess = excess.max((k - last).max(-k));
+    oblique += std::abs((w.x2 - w.x1) * (w.y2 - w.y1));
+  }
+  return off.sum() == 0 && oblique == 0 && excess.maxCoeff() <= 0;
+}
+
+bool all_on_grid_exactly(std::span<const FloatWall> walls, MazeHint hint) {
+  constexpr std::uint32_t exact_lines = std::uint32_t{1} << (std::numeric_limits<float>::digits - 1);
+  if (std::max(hint.rows, hint.cols) < exact_lines) return all_on_grid(walls, hint);
+  return std::all_of(walls.begin(), walls.end(), [&](const FloatWall& w) {
+    const DoubleWall wide{w.x1, w.y1, w.x2, w.y2};
+    return all_on_grid(std::span<const DoubleWall>(&wide, 1), hint);
+  });
+}
+bool all_on_grid_exactly(std::span<const DoubleWall> walls, MazeHint hint) { return all_on_grid(walls, hint); }
+/// Packed walls are never oblique.
+bool all_on_grid_exactly(std::span<const PackedWall> walls, MazeHint hint) {
+  constexpr std::int32_t half = PackedWall::per_unit / 2;
+  const auto most = [](std::uint32_t lines) {
+    return static_cast<std::int32_t>(std::min<std::uint32_t>(lines, PackedWall::most / PackedWall::per_unit)) *
+           PackedWall::per_unit;
+  };
+  const std::int32_t last_x = most(hint.cols);
+  const std::int32_t last_y = most(hint.rows);
+  std::int32_t off = 0;
+  std::int32_t beyond = 0;  // below 0: a wall is
+  for (const PackedWall& w : walls) {
+    const auto [x1, y1, x2, y2] = w.ends();
+    const std::int32_t lines[] = {x1 - half, y1 - half, x2 - half, y2 - half};
+    off |= (lines[0] | lines[1] | lines[2] | lines[3]) & (PackedWall::per_unit - 1);
+    beyond |= lines[0] | lines[1] | lines[2] | lines[3];
+    beyond |= (last_x - lines[0]) | (last_y - lines[1]) | (last_x - lines[2]) | (last_y - lines[3]);
+  }
+  return off == 0 && beyond >= 0;
+}
+
+/// A wall in grid lines, lower ends first.
+struct GridWall {
+  std::int64_t x1, y1, x2, y2;
+};
+
+GridWall grid_wall(std::int64_t x1, std::int64_t y1, std::int64_t x2, std::int64_t y2) {
+  return {std::min(x1, x2), std::min(y1, y2), std::max(x1, x2), std::max(y1, y2)};
+}
+/// Of a wall that lies on the grid.
+template <class T>
+GridWall grid_wall(const WallOf<T>& w) {
+  const auto line = [](T x) { return static_cast<std::int64_t>(x - T{0.5}); };
+  return grid_wall(line(w.x1), line(w.y1), line(w.x2), line(w.y2));
+}
+GridWall grid_wall(const PackedWall& w) {
+  const PackedWall::Ends e = w.ends();
+  const auto line = [](std::int32_t steps) { return (steps - PackedWall::per_unit / 2) / PackedWall::per_unit; };
+  return grid_wall(line(e.x1), line(e.y1), line(e.x2), line(e.y2));
+}
+
+/// Sets the bits of the cells along a wall; walls on the outline are no cells' business. Returns how many.
+std::int64_t raise(const GridWall& w, MazeHint hint, MazeCells& cells) {
+  const bool upright = w.x1 == w.x2;
+  const std::int64_t length = (w.x2 - w.x1) + (w.y2 - w.y1);
+  const bool inside = upright ? w.x1 > 0 && w.x1 < hint.cols : w.y1 > 0 && w.y1 < hint.rows;
+  if (!inside || length == 0) return 0;
+  const auto col = static_cast<std::uint32_t>(w.x1 - (upright ? 1 : 0));
+  const auto row = static_cast<std::uint32_t>(w.y1 - (upright ? 0 : 1));
+  const std::uint8_t bit = upright ? MazeCells::right_wall : MazeCells::upper_wall;
+  std::uint8_t* const first = cells.bytes().data() + cells.index(col, row);
+  *first |= bit;  // most walls are a unit long, and their direction is a coin toss: no branch decides on it
+  const std::size_t step = upright ? 1 : cells.stride();
+  for (std::int64_t i = 1; i < length; ++i) first[static_cast<std::size_t>(i) * step] |= bit;
+  return length;
+}
+
+/// Takes out all interior walls; the outline and the gaps keep theirs.
+void open_all(MazeCells& cells, const Execution& execution) {
+  const std::size_t grain = std::max<std::size_t>(1, flood_grain / cells.stride());
+  for_each_index<std::uint32_t>(cells.cols(), grain, execution, [&](std::uint32_t col) {
+    std::uint8_t* const first = cells.bytes().data() + cells.index(col, 0);
+    std::fill_n(first, cells.rows(), col + 1 < cells.cols() ? std::uint8_t{0} : MazeCells::right_wall);
+    first[cells.rows() - 1] |= MazeCells::upper_wall;
+  });
+}
+
+constexpr std::uint8_t to_try = 15;  ///< bit d: direction d is open and not yet tried
+constexpr std::uint8_t reached = 0x40;
+constexpr unsigned way_back_shift = 4;  ///< two bits hold the direction that a cell was reached from
+
+/// A byte a cell with its open directions; gap bytes have none.
+RawVector<std::uint8_t> open_directions(const MazeCells& cells, const Execution& execution) {
+  const std::span<const std::uint8_t> bytes = cells.bytes();
+  execution.reserve(bytes.size());
+  RawVector<std::uint8_t> open(bytes.size());
+  const std::size_t stride = cells.stride();
+  for_chunks(bytes.size(), flood_grain, execution, [&](Range r) {
+    for (std::size_t i = r.first; i < r.last; ++i) {
+      const unsigned left = i > stride ? bytes[i - stride] & 1U : 1U;
+      const unsigned below = i > 0 ? bytes[i - 1] & 2U : 2U;
+      const unsigned walls = (bytes[i] & 3U) | left << 2U | below << 2U;
+      open[i] = static_cast<std::uint8_t>(~walls & to_try);
+    }
+  });
+  return open;
 }
 
 }  // namespace
 
 std::uint64_t interior_walls(const MazeCells& cells, const Execution& execution) {
-  return places_of(cells, WallStarts(cells, false), {0, cells.cell_count()}, 0, execution).back();
+  return places_of(WallStarts(cells, false), {0, cells.cell_count()}, 0, execution).back();
 }
 
 std::size_t maze_wall_bytes(std::uint32_t rows, std::uint32_t cols) {
@@ -373,7 +509,7 @@ WallStrips::WallStrips(const CellWallSource& cells, bool merged, const Execution
   if (execution.progress != nullptr) execution.progress->begin("walls", cells.tile_count());
   for_each_strip(cells, execution, [&](const WallStrip& strip) {
     const WallStarts starts(strip.cells, merged, {strip.first_col(cells), cells.cols()});
-    count_ = places_of(strip.cells, starts, strip.own_cells(), count_, execution).back();
+    count_ = places_of(starts, strip.own_cells(), count_, execution).back();
     if (merged) note_runs(strip, std::span(runs_).subspan(strip.number * cells.rows(), cells.rows()), execution);
   });
 }
@@ -400,13 +536,77 @@ void WallStrips::write(const std::function<void(std::string_view)>& take, const 
     take(bytes_of<T>(frame));
     for_each_strip(cells_, execution, [&](const WallStrip& strip) {
       const std::vector<std::uint32_t> going_on = beyond(strip.number);
-      write_strip<T>(
-          strip.cells, strip.own_cells(),
-          {strip.cells, merged_, {strip.first_col(cells_), cells_.cols(), merged_ ? going_on.data() : nullptr}}, take,
-          execution);
+      const WallStarts starts(strip.cells, merged_, {strip.first_col(cells_), cells_.cols(), going_on.data()});
+      write_strip<T>(starts, strip.own_cells(), take, execution);
     });
   };
   holds_floats() ? with(float{}) : with(double{});
+}
+
+std::optional<std::size_t> first_wall_off_grid(const WallSet& walls, MazeHint hint, const Execution& execution) {
+  return walls.visit([&](auto span) -> std::optional<std::size_t> {
+    const std::size_t first = first_in_chunks(span.size(), flood_grain, execution, [&](Range r) {
+      if (all_on_grid_exactly(span.subspan(r.first, r.size()), hint)) return r.last;
+      std::size_t i = r.first;
+      while (all_on_grid_exactly(span.subspan(i, 1), hint)) ++i;
+      return i;
+    });
+    return first == span.size() ? std::nullopt : std::optional(first);
+  });
+}
+
+MazeCells cells_of_walls(const WallSet& walls, MazeHint hint, const Execution& execution) {
+  if (const auto off = first_wall_off_grid(walls, hint, execution)) {
+    const Segment s = walls.segment(*off);
+    throw InputError("maze", fmt::format("wall {} is not on the unit grid of a {}x{} maze", *off, hint.rows, hint.cols),
+                     fmt::format("{} {} {} {}", s.a.x, s.a.y, s.b.x, s.b.y));
+  }
+  MazeCells cells(hint.rows, hint.cols, execution);
+  open_all(cells, execution);
+  walls.visit([&](auto span) {  // serial: neighbours share bytes, and the bytes are what takes the time
+    std::int64_t since_look = 0;
+    for (const auto& wall : span) {
+      since_look += 1 + raise(grid_wall(wall), hint, cells);
+      if (since_look < units_per_look) continue;
+      execution.check();
+      since_look = 0;
+    }
+  });
+  return cells;
+}
+
+bool flood_connects(const MazeCells& cells, std::pair<std::uint32_t, std::uint32_t> a,
+                    std::pair<std::uint32_t, std::uint32_t> b, const Execution& execution) {
+  for (const auto& [col, row] : {a, b}) {
+    if (col >= cells.cols() || row >= cells.rows()) {
+      throw InputError("maze", fmt::format("the cell must lie in the {}x{} maze", cells.rows(), cells.cols()),
+                       fmt::format("column {}, row {}", col, row));
+    }
+  }
+  RawVector<std::uint8_t> at = open_directions(cells, execution);
+  const auto stride = static_cast<std::ptrdiff_t>(cells.stride());
+  const std::ptrdiff_t offsets[4] = {stride, 1, -stride, -1};
+  const std::size_t start = cells.index(a.first, a.second);
+  const std::size_t goal = cells.index(b.first, b.second);
+  std::uint64_t steps = 0;
+  at[start] |= reached;
+  for (std::size_t i = start; i != goal;) {
+    execution.poll(++steps);
+    const unsigned untried = at[i] & to_try;
+    if (untried == 0) {
+      if (i == start) return false;
+      i += static_cast<std::size_t>(offsets[at[i] >> way_back_shift & 3U]);
+      continue;
+    }
+    const auto d = static_cast<unsigned>(std::countr_zero(untried));
+    at[i] &= static_cast<std::uint8_t>(~(1U << d));
+    const std::size_t to = i + static_cast<std::size_t>(offsets[d]);
+    if ((at[to] & reached) != 0) continue;
+    const unsigned back = d ^ 2U;
+    at[to] = static_cast<std::uint8_t>((at[to] & ~(1U << back)) | reached | back << way_back_shift);
+    i = to;
+  }
+  return true;
 }
 
 }  // namespace warren

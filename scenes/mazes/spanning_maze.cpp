@@ -14,7 +14,6 @@
 #include "core/base/raw_vector.hpp"
 #include "core/search/union_find.hpp"
 #include "parallel/chunks.hpp"
-#include "scenes/mazes/maze_carving.hpp"
 
 namespace warren::maze {
 namespace {
@@ -324,7 +323,9 @@ class Joining {
     take_edges();
     std::sort(edges_.begin(), edges_.end(), [](const Edge& a, const Edge& b) { return a.weight < b.weight; });
     execution.check();
-    RawVector<std::uint32_t> regions = single_regions<std::uint32_t>(first_.back(), {1, execution.deadline});
+    RawVector<std::uint32_t> regions(first_.back());
+    for_each_index<std::uint32_t>(regions.size(), 65536, {1, execution.deadline},
+                                  [&](std::uint32_t v) { regions[v] = v; });
     for (std::size_t i = 0; i < edges_.size(); ++i) {
       if (i % 65536 == 0) execution.check();
       join(edges_[i], regions, joined);
@@ -520,7 +521,14 @@ class SpanningMaze::Builder {
   /// The first level is nearly all of the work, and what is kept.
   JoinedParts tiles(const Group& group, std::size_t number) {
     if (kept_ == nullptr) return make_tiles(group);
-    if (const auto bytes = kept_->find(PartKind::maze_group, number)) return unpack(group, *bytes);
+    if (const auto bytes = kept_->find(PartKind::maze_group, number)) {
+      ValueUnpacker from(*bytes, "a kept part of the maze");
+      JoinedParts kept{RimPart::unpack(from), from.take_list<std::uint64_t>()};
+      for (std::size_t i = 0; i < group.size(); ++i) {
+        maze_.choices_[tile_of(group, i)] = from.take_list<std::uint64_t>();
+      }
+      return kept;
+    }
     JoinedParts made = make_tiles(group);
     ValuePacker packer;
     made.whole.pack(packer);
@@ -541,17 +549,6 @@ class SpanningMaze::Builder {
       made.push_back({at, {scratch.rim_edges().begin(), scratch.rim_edges().end()}});
     }
     return join_parts(maze_.seed_, made, group.cols, maze_.side_log2(), execution_);
-  }
-
-  JoinedParts unpack(const Group& group, std::span<const std::byte> bytes) {
-    ValueUnpacker from(bytes, "a kept part of the maze");
-    JoinedParts kept;
-    kept.whole = RimPart::unpack(from);
-    kept.turned = from.take_list<std::uint64_t>();
-    for (std::size_t i = 0; i < group.size(); ++i) {
-      maze_.choices_[tile_of(group, i)] = from.take_list<std::uint64_t>();
-    }
-    return kept;
   }
 
   SpanningMaze& maze_;

@@ -29,9 +29,7 @@ Vec2 cell_centre(const OccupancyMap& map, Cell cell) { return world_point(map, {
 
 Box world_box(const OccupancyMap& map, const Box& in_cells) {
   Box box;
-  for (const double x : {in_cells.min.x, in_cells.max.x}) {
-    for (const double y : {in_cells.min.y, in_cells.max.y}) box.include(world_point(map, {x, y}));
-  }
+  for (const Vec2 corner : in_cells.corners()) box.include(world_point(map, corner));
   return box;
 }
 

@@ -68,9 +68,6 @@ class RingSides {
   std::vector<std::uint32_t> previous_;
 };
 
-/// May rings meet? At points: from the inside that they bound, which lies left of their sides.
-enum class RingContacts : std::uint8_t { none, at_points };
-
 /// A line swept over closed rings of corners (Shamos, Hoey 1976). It stops at the first contact of two sides that must
 /// not meet, and tells at each corner which side lies directly below: O(n log n), exact, whatever the rings: neighbours
 /// on the line are compared, and where rings meet first, two neighbours meet. Corners are ordered by x, then y, as if
@@ -82,12 +79,13 @@ class RingSweep {
  public:
   static constexpr std::uint32_t no_side = 0xffffffffU;
 
-  /// Refers to both. No ring folds.
-  RingSweep(const RingSides& rings, const Execution& execution, RingContacts contacts = RingContacts::none)
+  /// Refers to both. No ring folds. may_touch: rings may meet at points, from the inside that they bound, which lies
+  /// left of their sides.
+  RingSweep(const RingSides& rings, const Execution& execution, bool may_touch)
       : rings_(rings),
         execution_(execution),
-        may_touch_(contacts == RingContacts::at_points),
-        order_(Order{&rings, &contact_, may_touch_}),
+        may_touch_(may_touch),
+        order_(Order{&rings, &contact_, may_touch}),
         place_(rings.size(), order_.end()) {}
 
   /// Calls visit(corners, below, touched) once the sweep has passed the corners of a place, one where rings may not
@@ -99,11 +97,10 @@ class RingSweep {
     for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = static_cast<std::uint32_t>(i);
     std::sort(corners.begin(), corners.end(),
               [&](std::uint32_t i, std::uint32_t j) { return is_before(rings_.corner(i), rings_.corner(j)); });
-    constexpr std::size_t batch = 4096;
     std::size_t end = 0;
     std::size_t places = 0;
     for (std::size_t k = 0; k < corners.size(); k = end) {
-      if (places++ % batch == 0) execution_.check();
+      execution_.poll(places++);
       const auto here = [&](std::size_t other) { return rings_.corner(corners[other]) == rings_.corner(corners[k]); };
       if (!may_touch_ && k > 0 && here(k - 1)) return SideContact{corners[k - 1], corners[k]};
       for (end = k + 1; may_touch_ && end < corners.size() && here(end);) ++end;
@@ -125,20 +122,19 @@ class RingSweep {
       if (i == j) return false;
       const Vec2 a = rings->low(i);
       const Vec2 b = rings->low(j);
-      int side = 0;  // of j, seen from i
+      int side = 0;  // of j, seen from i; 0: one begins on the other
+      bool may_meet = true;
       if (is_before(b, a)) {
         side = -orient2d(b, rings->high(j), a);
         if (side == 0 && may_touch) side = -orient2d(b, rings->high(j), rings->high(i));
-        if (side == 0) *contact = SideContact{i, j};  // i begins on j
       } else if (is_before(a, b)) {
         side = orient2d(a, rings->high(i), b);
         if (side == 0 && may_touch) side = orient2d(a, rings->high(i), rings->high(j));
-        if (side == 0) *contact = SideContact{i, j};
       } else {
         side = orient2d(a, rings->high(i), rings->high(j));
-        const bool may_meet = may_touch || rings->next(i) == j || rings->next(j) == i;
-        if (side == 0 || !may_meet) *contact = SideContact{i, j};
+        may_meet = may_touch || rings->next(i) == j || rings->next(j) == i;
       }
+      if (side == 0 || !may_meet) *contact = SideContact{i, j};
       return side > 0 || (side == 0 && i < j);
     }
   };
@@ -301,7 +297,7 @@ class HoleCutter {
   bool tie_holes(const Execution& execution) {
     const RingSides rings(corners_, ring_first_);
     HoleTies ties(rings, ring_first_);
-    RingSweep sweep(rings, execution, RingContacts::at_points);
+    RingSweep sweep(rings, execution, true);
     if (sweep.run([&](auto corners, auto below, auto touched) { ties.pass(corners, below, touched); })) return false;
     const auto split = [&](std::uint32_t side, std::uint32_t corner) {  // what is left of the line is its first part
       add_line(corner, lines_[side].to);
@@ -392,6 +388,68 @@ std::vector<Segment> shared_sides(std::span<const std::vector<Vec2>> pieces) {
   return shared;
 }
 
+constexpr std::size_t obstacle_grain = 512;
+
+/// Appends the corners without repetitions, the last one and the first included.
+void append_distinct(std::vector<Vec2>& to, const std::vector<Vec2>& corners) {
+  const std::size_t begin = to.size();
+  for (const Vec2 p : corners) {
+    if (to.size() == begin || !(p == to.back())) to.push_back(p);
+  }
+  while (to.size() > begin + 1 && to.back() == to[begin]) to.pop_back();
+}
+
+/// Asked at the leftmost corner, the lowest of these: a simple outline is convex there.
+bool runs_clockwise(std::span<const Vec2> corners) {
+  const auto before = [](Vec2 p, Vec2 q) { return is_before(p, q); };
+  const auto at = static_cast<std::size_t>(std::min_element(corners.begin(), corners.end(), before) - corners.begin());
+  const std::size_t n = corners.size();
+  return orient2d(corners[(at + n - 1) % n], corners[at], corners[(at + 1) % n]) < 0;
+}
+
+/// Of three corners at least.
+bool has_area(std::span<const Vec2> corners) {
+  return std::ranges::any_of(corners.subspan(2), [&](Vec2 p) { return orient2d(corners[0], corners[1], p) != 0; });
+}
+
+std::string text_of(Vec2 p) { return fmt::format("{} {}", p.x, p.y); }
+
+/// place(): names the polygon. No two corners in a row are equal.
+template <class Place>
+void check_outline(std::span<const Vec2> corners, const Place& place, const Execution& execution) {
+  if (corners.size() < 3) {
+    throw InputError(place(), "a polygon needs at least three different corners", std::to_string(corners.size()));
+  }
+  if (!has_area(corners)) {
+    throw InputError(place(), "this polygon has no area: all its corners lie on one line");
+  }
+  const auto contact = self_contact(corners, execution);
+  if (!contact) return;
+  throw InputError(place(),
+                   fmt::format("a polygon's outline must not cross or touch itself; the sides from {} and from {} meet",
+                               text_of(corners[contact->first]), text_of(corners[contact->second])));
+}
+
+void check_corners(const Scene& scene, std::size_t corners) {
+  if (corners <= std::numeric_limits<std::uint32_t>::max()) return;
+  throw InputError(scene.source, "polygons with 2^32 corners and more are too many");
+}
+
+/// The checked outlines of some polygons.
+PolygonSet checked_outlines(const Scene& scene, Range range, const Execution& execution) {
+  PolygonSet set;
+  for (std::size_t i = range.first; i < range.last; ++i) {
+    append_distinct(set.corners, scene.polygons[i].corners);
+    check_corners(scene, set.corners.size());
+    set.first.push_back(static_cast<std::uint32_t>(set.corners.size()));
+    const std::span<Vec2> outline = std::span(set.corners).subspan(set.first[set.first.size() - 2]);
+    check_outline(
+        std::span<const Vec2>(outline), [&] { return place_of_polygon(scene, i); }, execution);
+    if (runs_clockwise(outline)) std::reverse(outline.begin(), outline.end());
+  }
+  return set;
+}
+
 }  // namespace
 
 std::vector<std::vector<Vec2>> without_holes(const std::vector<Vec2>& outer, std::span<const std::vector<Vec2>> holes,
@@ -445,71 +503,8 @@ std::optional<SideContact> self_contact(std::span<const Vec2> corners, const Exe
   for (std::size_t i = 0; i < outline.size(); ++i) {
     if (outline.fold(i)) return SideContact{outline.previous(i), i};
   }
-  return RingSweep(outline, execution).run([](auto, auto, auto) {});
+  return RingSweep(outline, execution, false).run([](auto, auto, auto) {});
 }
-
-namespace {
-
-constexpr std::size_t obstacle_grain = 512;
-
-/// Appends the corners without repetitions, the last one and the first included.
-void append_distinct(std::vector<Vec2>& to, const std::vector<Vec2>& corners) {
-  const std::size_t begin = to.size();
-  for (const Vec2 p : corners) {
-    if (to.size() == begin || !(p == to.back())) to.push_back(p);
-  }
-  while (to.size() > begin + 1 && to.back() == to[begin]) to.pop_back();
-}
-
-/// Asked at the leftmost corner, the lowest of these: a simple outline is convex there.
-bool runs_clockwise(std::span<const Vec2> corners) {
-  const auto before = [](Vec2 p, Vec2 q) { return is_before(p, q); };
-  const auto at = static_cast<std::size_t>(std::min_element(corners.begin(), corners.end(), before) - corners.begin());
-  const std::size_t n = corners.size();
-  return orient2d(corners[(at + n - 1) % n], corners[at], corners[(at + 1) % n]) < 0;
-}
-
-/// Of three corners at least.
-bool has_area(std::span<const Vec2> corners) {
-  return std::ranges::any_of(corners.subspan(2), [&](Vec2 p) { return orient2d(corners[0], corners[1], p) != 0; });
-}
-
-std::string text_of(Vec2 p) { return fmt::format("{} {}", p.x, p.y); }
-
-/// place(): names the polygon. No two corners in a row are equal.
-template <class Place>
-void check_outline(std::span<const Vec2> corners, const Place& place, const Execution& execution) {
-  if (corners.size() < 3) {
-    throw InputError(place(), "a polygon needs at least three different corners", std::to_string(corners.size()));
-  }
-  if (!has_area(corners)) {
-    throw InputError(place(), "this polygon has no area: all its corners lie on one line");
-  }
-  const auto contact = self_contact(corners, execution);
-  if (!contact) return;
-  throw InputError(place(),
-                   fmt::format("a polygon's outline must not cross or touch itself; the sides from {} and from {} meet",
-                               text_of(corners[contact->first]), text_of(corners[contact->second])));
-}
-
-/// The checked outlines of some polygons.
-PolygonSet checked_outlines(const Scene& scene, Range range, const Execution& execution) {
-  PolygonSet set;
-  for (std::size_t i = range.first; i < range.last; ++i) {
-    append_distinct(set.corners, scene.polygons[i].corners);
-    if (set.corners.size() > std::numeric_limits<std::uint32_t>::max()) {
-      throw InputError(scene.source, "polygons with 2^32 corners and more are too many");
-    }
-    set.first.push_back(static_cast<std::uint32_t>(set.corners.size()));
-    const std::span<Vec2> outline = std::span(set.corners).subspan(set.first[set.first.size() - 2]);
-    check_outline(
-        std::span<const Vec2>(outline), [&] { return place_of_polygon(scene, i); }, execution);
-    if (runs_clockwise(outline)) std::reverse(outline.begin(), outline.end());
-  }
-  return set;
-}
-
-}  // namespace
 
 std::vector<Vec2> anticlockwise(const std::vector<Vec2>& corners) {
   std::vector<Vec2> outline;
@@ -543,9 +538,7 @@ PlaneObstacles plane_obstacles(const Scene& scene, const Execution& execution) {
                       [&](Range range) { return checked_outlines(scene, range, execution); });
   std::size_t corners = 0;
   for (const PolygonSet& part : parts) corners += part.corners.size();
-  if (corners > std::numeric_limits<std::uint32_t>::max()) {
-    throw InputError(scene.source, "polygons with 2^32 corners and more are too many");
-  }
+  check_corners(scene, corners);
   execution.reserve(corners * sizeof(Vec2) + scene.walls.size() * sizeof(Segment));
   obstacles.polygons.corners.reserve(corners);
   for (const PolygonSet& part : parts) {

@@ -38,16 +38,12 @@ Vec2 at_angle(double angle, double radius) {
   return {radius * cosine, radius * sine};
 }
 
-/// One angle in each of n equal parts of a turn: apart enough for rounding, never half a turn apart but in triangles.
-double angle_of(std::size_t i, std::size_t n, Dice& dice) {
-  return turn * (static_cast<double>(i) + dice.from(0.0, 0.85)) / static_cast<double>(n);
-}
-
-/// All corners as far from the middle, or each at a distance of its own.
+/// One corner in each of n equal parts of a turn: apart enough for rounding, never half a turn apart but in triangles.
+/// All as far from the middle, or each at a distance of its own.
 Shape star(std::size_t n, bool is_convex, Dice& dice) {
   Shape shape(n);
   for (std::size_t i = 0; i < n; ++i) {
-    const double angle = angle_of(i, n, dice);
+    const double angle = turn * (static_cast<double>(i) + dice.from(0.0, 0.85)) / static_cast<double>(n);
     shape[i] = at_angle(angle, is_convex ? 1.0 : dice.from(0.35, 1.0));
   }
   return shape;

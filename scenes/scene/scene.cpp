@@ -23,6 +23,10 @@ class Hasher {
   explicit Hasher(std::uint64_t state) : state_(state) {}
   void add(std::uint64_t bits) { state_ = folded_words(state_ ^ fold_secret_a, bits ^ fold_secret_b); }
   void add(double x) { add(hashed_word(x)); }
+  template <class Numbers>
+  void add_each(const Numbers& numbers) {
+    for (const double x : numbers) add(x);
+  }
   std::uint64_t value() const { return mix64(state_); }
 
  private:
@@ -46,11 +50,9 @@ void add_solid(Hasher& hasher, const Solid& solid) {
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 4; ++column) hasher.add(solid.pose(row, column));
   }
-  for (const double number : solid.half) hasher.add(number);
+  hasher.add_each(solid.half);
   hasher.add(std::uint64_t{solid.corners.size()});
-  for (const Vec3& corner : solid.corners) {
-    for (const double number : corner) hasher.add(number);
-  }
+  for (const Vec3& corner : solid.corners) hasher.add_each(corner);
 }
 
 void add_word(Hasher& hasher, std::string_view word) {
@@ -63,18 +65,13 @@ std::string hash_with(Hasher hasher, const Scene& scene) {
   hasher.add(std::uint64_t{scene.polygons.size()});
   for (const ScenePolygon& polygon : scene.polygons) {
     hasher.add(std::uint64_t{polygon.corners.size()});
-    for (const Vec2 corner : polygon.corners) {
-      hasher.add(corner.x);
-      hasher.add(corner.y);
-    }
+    for (const Vec2 corner : polygon.corners) hasher.add_each(std::array{corner.x, corner.y});
   }
   hasher.add(std::uint64_t{scene.spheres.size()});
-  for (const Sphere& sphere : scene.spheres) {
-    for (const double number : {sphere.x, sphere.y, sphere.z, sphere.radius}) hasher.add(number);
-  }
+  for (const Sphere& s : scene.spheres) hasher.add_each(std::array{s.x, s.y, s.z, s.radius});
   for (const SolidBox& box : scene.boxes) {  // nothing where there are none: worlds keep the hash they have
-    for (const double number : box.low) hasher.add(number);
-    for (const double number : box.high) hasher.add(number);
+    hasher.add_each(box.low);
+    hasher.add_each(box.high);
   }
   for (const Solid& solid : scene.solids) add_solid(hasher, solid);
   if (scene.arm) {  // what it carries; what else a world says of an arm, its robot's words say, too
@@ -85,10 +82,7 @@ std::string hash_with(Hasher hasher, const Scene& scene) {
     }
   }
   hasher.add(std::uint64_t{scene.bounds.has_value()});
-  if (scene.bounds) {
-    const Box& box = *scene.bounds;
-    for (const double number : {box.min.x, box.min.y, box.max.x, box.max.y}) hasher.add(number);
-  }
+  if (const auto& box = scene.bounds) hasher.add_each(std::array{box->min.x, box->min.y, box->max.x, box->max.y});
   return fmt::format("{:016x}", hasher.value());
 }
 

@@ -37,11 +37,6 @@ class Descriptor : NotCopied {
   throw ReadError(name, std::generic_category().message(error));
 }
 
-/// O_NONBLOCK: opening a pipe that nobody writes to yet must not hang.
-int open_input(const std::string& path) {
-  return path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
-}
-
 /// Returns when there is something to read. A signal ends the poll early: then the deadline is asked first, since a
 /// read would wait on.
 void wait_for_input(int file, const Execution& execution) {
@@ -58,7 +53,8 @@ void wait_for_input(int file, const Execution& execution) {
 InputFile::InputFile(const std::string& path, const Execution& execution)
     : name_(path == "-" ? "standard input" : path) {
   execution.check();
-  const Descriptor file(open_input(path));
+  constexpr int flags = O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK;  // a pipe that nobody writes to yet must not hang
+  const Descriptor file(path == "-" ? STDIN_FILENO : ::open(path.c_str(), flags));
   if (file.number() < 0) fail(name_, errno);
   struct stat status {};
   if (::fstat(file.number(), &status) != 0) fail(name_, errno);

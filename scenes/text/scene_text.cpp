@@ -62,10 +62,9 @@ double Fields::out_of_range(std::string_view field) const {
 }
 
 void read_numbers(Fields& fields, std::vector<double>& numbers, const Execution& execution) {
-  constexpr std::size_t numbers_per_look = 4096;
   while (!fields.done()) {
     push_asked(numbers, fields.number(), execution);
-    if (numbers.size() % numbers_per_look == 0) execution.check();
+    execution.poll(numbers.size());
   }
 }
 
@@ -81,17 +80,10 @@ std::vector<Vec2> points_of(std::span<const double> numbers, const Execution& ex
 
 std::string_view nearest_word(std::string_view written, std::span<const std::string_view> known) {
   constexpr std::size_t longest_word = 32;
-  if (written.size() > longest_word) return {};
-  std::string_view best;
-  std::size_t best_distance = std::max<std::size_t>(2, written.size() / 2) + 1;
-  for (const std::string_view word : known) {
-    const std::size_t distance = edit_distance(written, word);
-    if (distance < best_distance) {
-      best_distance = distance;
-      best = word;
-    }
-  }
-  return best;
+  if (written.size() > longest_word || known.empty()) return {};
+  const auto distance = [&](std::string_view word) { return edit_distance(written, word); };
+  const std::string_view best = *std::ranges::min_element(known, {}, distance);
+  return distance(best) <= std::max<std::size_t>(2, written.size() / 2) ? best : std::string_view();
 }
 
 }  // namespace warren::scene_text
@@ -125,7 +117,7 @@ class LineReader {
     return scene_text::points_of(n, execution_);
   }
 
-  const std::string_view usage_;
+  std::string_view usage_;
   Fields& fields_;
   const Execution& execution_;
 };
@@ -141,20 +133,22 @@ class RobotReader : LineReader {
     const auto kind = enum_named<RobotKind>(word);
     if (!kind) refuse_usage(word.empty() ? "nothing" : word);
     RobotSpec robot{.kind = *kind};
+    if (kind == RobotKind::car || kind == RobotKind::urdf) {
+      usage_ = kind == RobotKind::car ? car_usage : urdf_usage;
+      if (is_option(fields_)) usage_.remove_prefix(usage_.find(' ') + 1);  // options take a line without its first word
+    }
     if (kind == RobotKind::point) {
       numbers(0, 0);
     } else if (kind == RobotKind::disc) {
       robot.radius = not_negative("R", numbers(1, 1)[0]);
     } else if (kind == RobotKind::polygon) {
       robot.outline = corners("numbers");
-    } else if (kind == RobotKind::car) {
-      read_car(robot);
     } else if (kind == RobotKind::urdf) {
       robot.files = urdf_files();
     } else {
       if (kind == RobotKind::arm) robot.table = fields_.word();
       if (kind == RobotKind::arm && robot.table.empty()) refuse_usage("no file");
-      read_sizes(robot);
+      read_words(robot);
     }
     if (!robot.outline.empty()) check_body(robot.outline, fields_.place().text(), execution_);
     return robot;
@@ -164,82 +158,64 @@ class RobotReader : LineReader {
   [[noreturn]] void refuse(std::string_view what, double value) const {
     fields_.place().fail(fmt::format("`robot`: {}", what), fmt::format("{}", value));
   }
+  bool has(std::string_view name) const { return std::ranges::find(seen_, name) != seen_.end(); }
   double not_negative(std::string_view name, double value) const {
     if (!(value >= 0.0)) refuse(fmt::format("{} must be at least 0", name), value);
     return value;
   }
-  double positive(std::string_view name, double value) const {
-    if (!(value > 0.0)) refuse(fmt::format("{} must be greater than 0", name), value);
-    return value;
-  }
 
-  /// Named numbers, `radius R` and the like: each once, in any order.
-  void read_sizes(RobotSpec& robot) {
-    bool has_radius = false;
-    bool has_tool = false;
-    while (!fields_.done()) {
-      const std::string_view name = fields_.word();
-      if (read_arm_word(robot, name)) continue;
-      bool& seen = name == "radius" ? has_radius : has_tool;
-      if ((name != "radius" && name != "tool") || seen) refuse_usage(name);
-      seen = true;
-      const double value = fields_.number();
-      if (name == "radius") robot.radius = not_negative("radius", value);
-      if (name == "tool") robot.tool = not_negative("tool", value);
-    }
-    if (!has_radius) refuse_usage("no radius");
-  }
-
-  /// Options take a line without its first word.
-  [[noreturn]] void refuse_line(std::string_view usage, std::string_view found) const {
-    const std::size_t word = is_option(fields_) ? usage.find(' ') + 1 : 0;
-    fields_.place().fail(fmt::format("expected `{}`", usage.substr(word)), found);
-  }
-  [[noreturn]] void refuse_car(std::string_view found) const { refuse_line(car_usage, found); }
   SteeringKind steering() {
     const std::string_view name = fields_.word();
     if (const auto kind = enum_named<SteeringKind>(name)) return *kind;
-    refuse_car(name.empty() ? "no steering" : name);
+    refuse_usage(name.empty() ? "no steering" : name);
   }
   std::vector<Vec2> car_corners() {
     std::vector<Vec2> points;
     while (fields_.number_follows()) {
       const double x = fields_.number();
-      if (!fields_.number_follows()) refuse_car("an x without its y");
+      if (!fields_.number_follows()) refuse_usage("an x without its y");
       push_asked(points, {x, fields_.number()}, execution_);
-      if (points.size() % numbers_per_look == 0) execution_.check();
+      execution_.poll(points.size());
     }
-    if (points.size() < 3) refuse_car(fmt::format("{} corners", points.size()));
+    if (points.size() < 3) refuse_usage(fmt::format("{} corners", points.size()));
     return points;
   }
-  /// Its words in any order, each once.
-  void read_car(RobotSpec& robot) {
-    std::vector<std::string_view> seen;
+  /// Those of a car, puma560 or arm in any order, each once.
+  void read_words(RobotSpec& robot) {
+    const bool is_car = robot.kind == RobotKind::car;
     while (!fields_.done()) {
       const std::string_view name = fields_.word();
-      if (std::find(seen.begin(), seen.end(), name) != seen.end()) refuse_car(name);
-      seen.push_back(name);
+      if (has(name)) refuse_usage(name);
+      seen_.push_back(name);
       if (name == "radius") {
-        robot.radius = not_negative("radius", fields_.number());
-      } else if (name == "polygon") {
+        robot.radius = not_negative(name, fields_.number());
+      } else if (is_car && name == "polygon") {
         robot.outline = car_corners();
-      } else if (name == "turning") {
-        robot.turning_radius = positive("turning", fields_.number());
-      } else if (name == "steering") {
+      } else if (is_car && name == "turning") {
+        robot.turning_radius = fields_.number();
+        if (!(robot.turning_radius > 0.0)) refuse("turning must be greater than 0", robot.turning_radius);
+      } else if (is_car && name == "steering") {
         robot.steering = steering();
+      } else if (!is_car && name == "tool") {
+        robot.tool = not_negative(name, fields_.number());
+      } else if (!is_car && name == "self-collision") {
+        robot.self_collision = true;
+      } else if (robot.kind == RobotKind::puma560 && name == "limits") {
+        const std::string_view which = fields_.word();
+        if (which != "classic" && which != "symmetric") refuse_usage(which.empty() ? "nothing" : which);
+        robot.limits = which;
       } else {
-        refuse_car(name);
+        refuse_usage(name);
       }
     }
-    const auto has = [&](std::string_view name) { return std::find(seen.begin(), seen.end(), name) != seen.end(); };
-    if (has("radius") == has("polygon")) refuse_car(has("radius") ? "radius and polygon" : "no radius");
-    if (!has("turning")) refuse_car("no turning radius");
+    const bool has_radius = has("radius");
+    if (has_radius == (is_car && has("polygon"))) refuse_usage(has_radius ? "radius and polygon" : "no radius");
+    if (is_car && !has("turning")) refuse_usage("no turning radius");
   }
 
-  [[noreturn]] void refuse_urdf(std::string_view found) const { refuse_line(urdf_usage, found); }
   std::string urdf_word(std::string_view before) {
     const std::string_view word = fields_.word();
-    if (word.empty()) refuse_urdf(fmt::format("nothing behind {}", before));
+    if (word.empty()) refuse_usage(fmt::format("nothing behind {}", before));
     return std::string{word};
   }
   /// Its words in any order, each once but package-path, hold and allow.
@@ -262,28 +238,18 @@ class RobotReader : LineReader {
       } else if (name == "allow") {
         read_allow(fields_, files);
       } else {
-        refuse_urdf(name);
+        refuse_usage(name);
       }
       execution_.check();
     }
     if (files.base.empty() != files.tip.empty())
-      refuse_urdf(files.base.empty() ? "tip without base" : "base without tip");
-    if (!files.group.empty() && !files.base.empty()) refuse_urdf("group and base");
-    if (!files.group.empty() && files.srdf.empty()) refuse_urdf("group without srdf");
+      refuse_usage(files.base.empty() ? "tip without base" : "base without tip");
+    if (!files.group.empty() && !files.base.empty()) refuse_usage("group and base");
+    if (!files.group.empty() && files.srdf.empty()) refuse_usage("group without srdf");
     return files;
   }
 
-  /// Words of arms that are no numbers: was this one?
-  bool read_arm_word(RobotSpec& robot, std::string_view name) {
-    if (name == "self-collision" && !robot.self_collision) return robot.self_collision = true;
-    if (name != "limits" || robot.kind != RobotKind::puma560 || !robot.limits.empty()) return false;
-    const std::string_view which = fields_.word();
-    if (which != "classic" && which != "symmetric") refuse_usage(which.empty() ? "nothing" : which);
-    robot.limits = which;
-    return true;
-  }
-
-  static constexpr std::size_t numbers_per_look = 4096;
+  std::vector<std::string_view> seen_;  // words of the line that stand in it once
 };
 
 // A file's name is one word: blanks, commas, # and \ in it stand as \xHH.

@@ -45,7 +45,7 @@ std::size_t line_of_second_document(std::string_view text, const Execution& exec
   bool is_second = false;
   text = without_byte_order_mark(text);
   for (std::size_t number = 1; !text.empty(); ++number) {
-    if (number % 4096 == 0) execution.check();
+    execution.poll(number);
     const std::size_t end = std::min(text.find('\n'), text.size());
     std::string_view line = text.substr(0, end);
     text.remove_prefix(std::min(end + 1, text.size()));

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <vector>
@@ -392,10 +393,8 @@ LatticeSize lattice_of(const RoadmapFile& file, const Execution& execution) {
   const Json json = parsed(where, roadmap_meta(file, execution));
   const auto found = json.find("lattice");
   if (found == json.end()) return {};
-  const bool two =
-      found->is_array() && found->size() == 2 && (*found)[0].is_number_unsigned() && (*found)[1].is_number_unsigned();
-  constexpr std::uint64_t most = 0xffffffff;
-  if (!two || (*found)[0].get<std::uint64_t>() > most || (*found)[1].get<std::uint64_t>() > most) {
+  const auto is_side = [](const Json& n) { return n.is_number_unsigned() && n.get<std::uint64_t>() <= 0xffffffff; };
+  if (!found->is_array() || found->size() != 2 || !std::all_of(found->begin(), found->end(), is_side)) {
     throw InputError(where + ": key \"lattice\"", "expected rows and columns");
   }
   return {(*found)[0].get<std::uint32_t>(), (*found)[1].get<std::uint32_t>()};

@@ -299,19 +299,6 @@ void check_loadable(const RoadmapParts& parts, const ExportedEdgesView& edges, c
   }
 }
 
-std::string key_line(std::string_view name, std::string_view of, std::string_view type) {
-  return fmt::format("<key id=\"{0}\" for=\"{1}\" attr.name=\"{0}\" attr.type=\"{2}\"/>\n", name, of, type);
-}
-
-std::string graphml_head(const RoadmapParts& parts) {
-  std::string head =
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<graphml xmlns=\"http://graphml.graphdrawing.org/xmlns\">\n";
-  for (const std::string& name : state_names(parts.dimension)) head += key_line(name, "node", "double");
-  head += key_line("component", "node", "long") + key_line("length", "edge", "double") +
-          key_line("state", "edge", "string");
-  return head + fmt::format("<graph edgedefault=\"{}\">\n", parts.directed ? "directed" : "undirected");
-}
-
 using Shape = std::vector<std::uint64_t>;
 
 class NpzWriter {
@@ -499,8 +486,16 @@ void RoadmapExport::geojson() const {
 
 /// Nodes with x, y, theta or q1..qn and component, edges with length and state. http://graphml.graphdrawing.org
 void RoadmapExport::graphml() const {
-  file.write(graphml_head(parts));
+  file.write("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<graphml xmlns=\"http://graphml.graphdrawing.org/xmlns\">\n");
+  const auto key = [&](std::string_view name, std::string_view of, std::string_view type) {
+    file.write(fmt::format("<key id=\"{0}\" for=\"{1}\" attr.name=\"{0}\" attr.type=\"{2}\"/>\n", name, of, type));
+  };
   const std::vector<std::string> names = state_names(parts.dimension);
+  for (const std::string& name : names) key(name, "node", "double");
+  key("component", "node", "long");
+  key("length", "edge", "double");
+  key("state", "edge", "string");
+  file.write(fmt::format("<graph edgedefault=\"{}\">\n", parts.directed ? "directed" : "undirected"));
   each_vertex(file, [&](std::size_t v, ExportedState state, auto out) {
     fmt::format_to(out, FMT_COMPILE("<node id=\"{}\">"), v);
     for (std::size_t i = 0; i < state.size(); ++i) {

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <limits>
@@ -86,17 +87,15 @@ struct NamedFile {
   std::string path;
 };
 
-std::optional<Place> place_of(const struct stat& status) {
-  // Nothing is lost on a device; folders are refused elsewhere.
-  if (S_ISCHR(status.st_mode) || S_ISDIR(status.st_mode)) return std::nullopt;
-  return Place{status.st_dev, status.st_ino, {}};
-}
-
 std::string name_in_folder(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
 std::optional<Place> place_of(const std::string& path) {
   struct stat status {};
-  if (::stat(path.c_str(), &status) == 0) return place_of(status);
+  if (::stat(path.c_str(), &status) == 0) {
+    // Nothing is lost on a device; folders are refused elsewhere.
+    if (S_ISCHR(status.st_mode) || S_ISDIR(status.st_mode)) return std::nullopt;
+    return Place{status.st_dev, status.st_ino, {}};
+  }
   const std::string real = behind_links(path);
   if (::stat(folder_of(real).c_str(), &status) != 0) return std::nullopt;
   return Place{status.st_dev, status.st_ino, name_in_folder(real)};
@@ -106,7 +105,7 @@ std::optional<Place> place_of(const std::string& path) {
 std::optional<Place> place_of_descriptor(int descriptor) {
   struct stat status {};
   if (::fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
-  return place_of(status);
+  return Place{status.st_dev, status.st_ino, {}};
 }
 
 std::optional<Place> place_of_output(const std::string& path) {
@@ -131,11 +130,8 @@ std::vector<NamedFile> outputs_of(const Arguments& arguments) {
     if (ending == ".yaml") files.push_back({"its image", map_image_of(*path)});
     if (ending == ".gr" || ending == ".csv") files.push_back({"its second file", files_of_export(*path).back()});
   }
-  for (const char* many : {"--batch", "--matrix"}) {
-    if (!arguments.has(many)) continue;
-    files.push_back({fmt::format("the answers to {}", many), "-"});
-    break;  // both are refused by name
-  }
+  const char* const many = arguments.has("--batch") ? "--batch" : "--matrix";  // both are refused by name
+  if (arguments.has(many)) files.push_back({fmt::format("the answers to {}", many), "-"});
   return files;
 }
 
@@ -153,12 +149,9 @@ void check_standard_stream(const std::vector<NamedFile>& files, std::string_view
 bool is_picture_name(const Arguments& arguments, std::string_view name) {
   if (!name.ends_with(".svg")) return false;
   if (name == "paths.svg") return true;
-  for (const std::string& planner : given_list(arguments, "--planners")) {
-    if (!name.starts_with(planner) || name.size() == planner.size()) continue;
-    const char next = name[planner.size()];
-    if (next == '.' || next == '_') return true;
-  }
-  return false;
+  return std::ranges::any_of(given_list(arguments, "--planners"), [&](const std::string& planner) {
+    return name.starts_with(planner + '.') || name.starts_with(planner + '_');
+  });
 }
 
 /// No picture that `option` writes into `folder` may take the place of any of these files.

@@ -98,12 +98,11 @@ Scene load_planned_world(const std::string& source, std::optional<PipelineKind> 
   };
   const bool is_streamed = pipeline == PipelineKind::streamed;
   const auto is_left_out = [&](MazeHint maze) { return is_streamed || (!pipeline && is_large(maze)); };
-  if (is_maze_source(source)) {
-    std::optional<Scene> scene = unmade_maze(source);
+  if (is_made_source(source)) {
+    std::optional<Scene> scene = is_maze_source(source) ? unmade_maze(source) : std::nullopt;
     if (scene && is_left_out(*scene->maze) && !arguments.has("--request")) return std::move(*scene);
     return load_world(source, arguments, execution, seconds);
   }
-  if (is_made_source(source)) return load_world(source, arguments, execution, seconds);
   const InputFile file = file_of_world(source, execution);
   std::error_code ignored;
   const bool plain = !arguments.has("--map-rules") && !arguments.has("--request");

@@ -5,7 +5,6 @@
 
 #include <utility>
 
-#include "core/base/error.hpp"
 #include "pictures/answer_summary.hpp"
 #include "pictures/draw_answer.hpp"
 #include "pictures/formats/write_picture.hpp"
@@ -179,7 +178,7 @@ void AnswerCommand::write_json(std::optional<OutputFile>& file, const Execution&
   write_answer_json(answer_, execution, [&](std::string_view text) {
     if (!file) file.emplace(json_, execution);
     file->write(text);
-    if (execution.progress != nullptr) execution.progress->advance(text.size());
+    execution.advance(text.size());
   });
 }
 

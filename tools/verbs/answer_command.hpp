@@ -23,14 +23,12 @@ namespace warren::tools {
 /// --json --no-path --picture, and how a picture looks
 std::vector<OptionSpec> answer_output_specs();
 
-class AnswerCommand {
+class AnswerCommand : NotCopied {
  public:
   /// `keep`: the option whose file takes the roadmap, if it is given. Throws UsageError, WriteError for outputs that
   /// can't be.
   AnswerCommand(const Arguments& arguments, std::string_view keep);
   virtual ~AnswerCommand() = default;
-  AnswerCommand(const AnswerCommand&) = delete;
-  AnswerCommand& operator=(const AnswerCommand&) = delete;
   /// The exit code.
   int run();
 

@@ -23,8 +23,8 @@
 #include "scenes/files/plane_formats_io.hpp"
 #include "scenes/scene/occupancy_map.hpp"
 #include "scenes/text/human_units.hpp"
+#include "scenes/text/json_text.hpp"
 #include "scenes/text/output_file_io.hpp"
-#include "solve/answer/write_answer_io.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"
@@ -86,7 +86,8 @@ ScenarioTrial timed_search(GridSearch& search, const Bitmap& blocked, Cell start
 }
 
 struct ScenarioTotals {
-  std::size_t differing = 0;
+  std::size_t scenarios = 0;
+  std::vector<const CheckedScenario*> differing = {};  // of those that outlive it
   double astar_s = 0.0;
   double jumps_s = 0.0;
   std::uint64_t astar_expanded = 0;
@@ -95,10 +96,10 @@ struct ScenarioTotals {
 };
 
 ScenarioTotals totals_of(const std::vector<CheckedScenario>& scenarios) {
-  ScenarioTotals totals;
+  ScenarioTotals totals{scenarios.size()};
   std::vector<double> speedups;
   for (const CheckedScenario& s : scenarios) {
-    totals.differing += s.agrees() ? 0 : 1;
+    if (!s.agrees()) totals.differing.push_back(&s);
     totals.astar_s += s.astar.seconds;
     totals.jumps_s += s.jumps.seconds;
     totals.astar_expanded += s.astar.expanded;
@@ -148,21 +149,18 @@ std::vector<CheckedScenario> check_scenarios(const OccupancyMap& map, const std:
 }
 
 /// The scenarios of the file that differ, at most 50 of them, and a line of totals.
-std::string scenario_summary(const std::string& file, const std::vector<CheckedScenario>& scenarios,
-                             const Palette& palette) {
+std::string scenario_summary(const std::string& file, const ScenarioTotals& t, const Palette& palette) {
   constexpr std::size_t most_lines = 50;
   std::string text;
-  std::size_t shown = 0;
-  for (const CheckedScenario& s : scenarios) {
-    if (s.agrees() || shown == most_lines) continue;
+  for (std::size_t i = 0; i < std::min(most_lines, t.differing.size()); ++i) {
+    const CheckedScenario& s = *t.differing[i];
     text += fmt::format("{}:{}: published {}, A* {}, jump points {}\n", printable(file), s.scenario.line,
                         s.scenario.length, s.astar.length, s.jumps.length);
-    ++shown;
   }
-  const ScenarioTotals t = totals_of(scenarios);
-  const std::string all = grouped(scenarios.size());
-  const std::string verdict = t.differing == 0 ? palette.good(fmt::format("all {} optimal", all))
-                                               : palette.bad(fmt::format("{} of {} differ", grouped(t.differing), all));
+  const std::string all = grouped(t.scenarios);
+  const std::string verdict = t.differing.empty()
+                                  ? palette.good(fmt::format("all {} optimal", all))
+                                  : palette.bad(fmt::format("{} of {} differ", grouped(t.differing.size()), all));
   return text + fmt::format(
                     "{}: {}; A* {:.3f} s, {} cells; jump points {:.3f} s, {} cells: {:.1f} times as fast, "
                     "median {:.1f}\n",
@@ -171,22 +169,18 @@ std::string scenario_summary(const std::string& file, const std::vector<CheckedS
 }
 
 /// warren.bench-scen/1
-std::string scenario_json(const std::string& file, const std::string& map,
-                          const std::vector<CheckedScenario>& scenarios) {
-  const ScenarioTotals t = totals_of(scenarios);
-  std::string text = fmt::format(
-      "{{\"schema\": \"warren.bench-scen/1\",\n \"file\": {},\n \"map\": {},\n \"scenarios\": {},\n \"differing\": "
-      "{},\n \"astar_s\": {},\n \"jump_points_s\": {},\n \"astar_expanded\": {},\n \"jump_points_expanded\": {},\n "
-      "\"median_speedup\": {},\n \"differences\": [",
-      json_string(file), json_string(map), scenarios.size(), t.differing, json_number(t.astar_s),
-      json_number(t.jumps_s), t.astar_expanded, t.jumps_expanded, json_number(t.median_speedup));
-  for (const CheckedScenario& s : scenarios) {
-    if (s.agrees()) continue;
-    text += fmt::format("{}{{\"line\": {}, \"published\": {}, \"astar\": {}, \"jump_points\": {}}}",
-                        text.ends_with('[') ? "" : ", ", s.scenario.line, json_number(s.scenario.length),
-                        json_number(s.astar.length), json_number(s.jumps.length));
-  }
-  return text + "]}\n";
+std::string scenario_json(const std::string& file, const std::string& map, const ScenarioTotals& t) {
+  JsonObject json(",\n ", ": ");
+  json.add("schema", "warren.bench-scen/1", "file", file, "map", map, "scenarios", t.scenarios, "differing",
+           t.differing.size(), "astar_s", t.astar_s, "jump_points_s", t.jumps_s, "astar_expanded", t.astar_expanded,
+           "jump_points_expanded", t.jumps_expanded, "median_speedup", t.median_speedup);
+  json.add_json("differences", json_list_of(t.differing, ", ", [](const CheckedScenario* s) {
+                  JsonObject one(", ", ": ");
+                  one.add("line", s->scenario.line, "published", s->scenario.length, "astar", s->astar.length,
+                          "jump_points", s->jumps.length);
+                  return one.closed();
+                }));
+  return json.closed() + "\n";
 }
 
 constexpr OptionSpec bench_scen_specs[] = {
@@ -194,13 +188,11 @@ constexpr OptionSpec bench_scen_specs[] = {
     {"--json", "FILE", "write the figures as JSON; - is standard output"},
 };
 
-std::string folder_prefix(const std::string& file) { return file.substr(0, file.rfind('/') + 1); }
-
 /// The map beside the scenario file, by its whole name or its last part; as it stands from here; or without ".scen".
 OccupancyMap read_its_map(const Arguments& arguments, const std::string& map, const Execution& execution) {
   const std::string& scen = arguments.operand(0);
-  const std::string last = map.substr(map.rfind('/') + 1);
-  std::vector<std::string> places{folder_prefix(scen) + map, folder_prefix(scen) + last, map};
+  const std::string folder = scen.substr(0, scen.rfind('/') + 1);
+  std::vector<std::string> places{folder + map, folder + map.substr(map.rfind('/') + 1), map};
   if (scen.ends_with(".scen")) places.push_back(scen.substr(0, scen.size() - 5));
   for (const std::string& place : places) {
     std::optional<InputFile> file;
@@ -231,9 +223,10 @@ int bench_scen(const Arguments& arguments) {
                                  : read_its_map(arguments, scenarios.front().map, run.execution());
   const std::vector<CheckedScenario> checked = check_scenarios(map, scenarios, file, run.execution());
   run.end();
-  if (json) write_file(*json, scenario_json(file, map.source, checked), run.execution());
-  if (!run.quiet() && json != "-") print_text(scenario_summary(file, checked, run.palette()));
-  return totals_of(checked).differing == 0 ? exit_code::success : exit_code::no_path;
+  const ScenarioTotals totals = totals_of(checked);
+  if (json) write_file(*json, scenario_json(file, map.source, totals), run.execution());
+  if (!run.quiet() && json != "-") print_text(scenario_summary(file, totals, run.palette()));
+  return totals.differing.empty() ? exit_code::success : exit_code::no_path;
 }
 
 }  // namespace

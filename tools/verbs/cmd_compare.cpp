@@ -21,7 +21,6 @@
 #include "core/base/error.hpp"
 #include "pictures/formats/write_picture.hpp"
 #include "pictures/layers/draw_bodies.hpp"
-#include "scenes/files/ros_map_io.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
@@ -76,8 +75,7 @@ std::optional<Outcome> compare_within(const Arguments& arguments, CompareOptions
     if (options.world) scene = load_world(*options.world, arguments, run.execution());
     if (options.planners) {
       for (studies::PlannerContender& asked : options.planners->contenders) {
-        read_masks(asked.question.prices, run.execution());
-        check_not_written(arguments, asked.question.prices);
+        read_asked_files(asked.question, arguments, run.execution());
       }
     }
   } catch (const Stopped& stopped) {
@@ -92,17 +90,16 @@ studies::OmplExperiment experiment_of(const Arguments& arguments, const CompareO
                                       const Execution& execution, std::chrono::system_clock::time_point begin) {
   std::array<char, 256> host{};
   if (::gethostname(host.data(), host.size() - 1) != 0) host.fill('\0');
-  studies::OmplExperiment e;
-  e.name = "compare_" + options.world.value_or("");
-  for (char& c : e.name) c = c == ' ' || c == '\t' ? '_' : c;
-  e.hostname = host[0] == '\0' ? "unknown" : std::string(host.data());
-  e.date = fmt::format("{:%Y-%b-%d %H:%M:%S}", fmt::localtime(std::chrono::system_clock::to_time_t(begin)));
-  e.setup = arguments.command_line();
-  e.seed = options.planners ? options.planners->first_seed : 1;
-  e.budget_s = std::isfinite(options.budget_s) ? options.budget_s : 0.0;
-  e.memory_mb = execution.deadline->memory_bytes() >> 20;
-  e.total_s = std::chrono::duration<double>(std::chrono::system_clock::now() - begin).count();
-  return e;
+  std::string name = "compare_" + options.world.value_or("");
+  for (char& c : name) c = c == ' ' || c == '\t' ? '_' : c;
+  return {.name = std::move(name),
+          .hostname = host[0] == '\0' ? "unknown" : std::string(host.data()),
+          .date = fmt::format("{:%Y-%b-%d %H:%M:%S}", fmt::localtime(std::chrono::system_clock::to_time_t(begin))),
+          .setup = arguments.command_line(),
+          .seed = options.planners ? options.planners->first_seed : 1,
+          .budget_s = std::isfinite(options.budget_s) ? options.budget_s : 0.0,
+          .memory_mb = execution.deadline->memory_bytes() >> 20,
+          .total_s = std::chrono::duration<double>(std::chrono::system_clock::now() - begin).count()};
 }
 
 /// A comparison in which nobody found a path has no answer; one whose planners succeed now and then is what was asked.
@@ -158,10 +155,6 @@ int compare(const Arguments& arguments) {
 
 // Which options of `solve` take lists in `warren compare`, and the contenders' deal that words make with them.
 
-/// May planners take turns with several values of an option each, or is one graph searched, which has one value each
-/// and leaves searches and queues to others?
-enum class DealKind : std::uint8_t { planners, graph };
-
 /// The options of `solve` that take a list here, apart by commas, in the order in which they are dealt.
 constexpr Option listed[] = {Option::search,    Option::queue,       Option::heuristic, Option::sampler,
                              Option::samples,   Option::neighbours,  Option::radius,    Option::neighbour_index,
@@ -184,8 +177,10 @@ bool is_list(const Arguments& arguments, std::string_view option) {
   return arguments.value(option).value_or("").find(',') != std::string::npos;
 }
 
-/// Options with one value go to all contenders, those with several are dealt. Throws UsageError.
-studies::PlannerDeal deal_words(const Arguments& arguments, std::vector<PlannerKind> planners, DealKind kind) {
+/// Options with one value go to all contenders, those with several are dealt. Without --planners one graph is searched,
+/// which has one value each and leaves searches and queues to others. Throws UsageError.
+studies::PlannerDeal deal_words(const Arguments& arguments, std::vector<PlannerKind> planners) {
+  const bool is_one_graph = !arguments.has("--planners");
   for (const std::string_view option : {"--neighbours", "--radius"}) {
     if (!arguments.has("--neighbours") || !arguments.has("--radius") || !is_list(arguments, option)) continue;
     throw UsageError(fmt::format("{}: milestones are joined by --neighbours or by --radius; give one of them", option));
@@ -195,7 +190,7 @@ studies::PlannerDeal deal_words(const Arguments& arguments, std::vector<PlannerK
   std::vector<std::string_view> taken{"--seed"};
   for (const Option option : listed) {
     const bool left_to_others = option == Option::search || option == Option::queue;
-    if (kind == DealKind::graph && left_to_others) continue;
+    if (is_one_graph && left_to_others) continue;
     const std::string_view flag = option_flag(option);
     const bool named_list = arguments.has(list_flag(option));
     if (named_list) arguments.refuse({flag}, fmt::format("{} gives it, too", list_flag(option)));
@@ -208,12 +203,12 @@ studies::PlannerDeal deal_words(const Arguments& arguments, std::vector<PlannerK
       dealt.values.push_back({word, solve_words(Arguments::of(flag, word))});
     }
     taken.push_back(flag);
-    if (kind == DealKind::graph && dealt.values.size() > 1) {
+    if (is_one_graph && dealt.values.size() > 1) {
       throw UsageError(fmt::format("{}: searches run on one graph; give one value", flag));
     }
   }
   if (is_list(arguments, clearance)) {
-    if (kind == DealKind::graph) throw UsageError("--clearance: searches run on one graph; give one value");
+    if (is_one_graph) throw UsageError("--clearance: searches run on one graph; give one value");
     deal.clearances = given_values(arguments, clearance, clearance, [](std::string_view option, std::string_view word) {
       return number_value(option, word, 0.0, largest_coordinate);
     });
@@ -285,7 +280,7 @@ studies::PlannerContestOptions contest_options(const Arguments& arguments) {
   }
   const auto planners = given_values(arguments, "--planners", "--planner", choice_value<PlannerKind>);
   studies::PlannerContestOptions options;
-  options.contenders = studies::deal_planners(deal_words(arguments, planners, DealKind::planners));
+  options.contenders = studies::deal_planners(deal_words(arguments, planners));
   options.pictures = arguments.value("--pictures").value_or("");
   options.look = picture_words(arguments, arguments.has("--pictures"), "--pictures FOLDER");
   options.first_seed = first_seed(arguments);
@@ -304,23 +299,20 @@ std::vector<E> choices(const Arguments& arguments, std::string_view list, std::v
 std::vector<studies::SearchVariant> variants_of(const Arguments& arguments) {
   const auto searches = choices<SearchKind>(
       arguments, "--searches", {SearchKind::bfs, SearchKind::dfs, SearchKind::dijkstra, SearchKind::astar});
-  const auto queues = choices<studies::QueuePolicy>(
-      arguments, "--queues",
-      {studies::QueuePolicy::heap, studies::QueuePolicy::lazy_heap, studies::QueuePolicy::sorted_array,
-       studies::QueuePolicy::resorted_array, studies::QueuePolicy::linear_scan});
+  const auto queues = choices(arguments, "--queues", EnumSet<studies::QueuePolicy>::all().members());
   const auto peer = arguments.value("--peer");
   if (peer) choice_value("--peer", *peer, peer_words);
   std::vector<studies::SearchVariant> variants;
-  bool any_queue = false;
   for (const SearchKind search : searches) {
-    any_queue = any_queue || has_queue(search);
     if (!has_queue(search)) variants.push_back({search, std::nullopt, studies::SearchLibrary::warren});
     for (const studies::QueuePolicy queue : queues) {
       if (has_queue(search)) variants.push_back({search, queue, studies::SearchLibrary::warren});
     }
     if (peer) variants.push_back({search, std::nullopt, studies::SearchLibrary::boost});
   }
-  if (!any_queue) arguments.refuse({"--queues"}, "bfs and dfs have no priority queue; astar and dijkstra take one");
+  if (std::ranges::none_of(searches, has_queue)) {
+    arguments.refuse({"--queues"}, "bfs and dfs have no priority queue; astar and dijkstra take one");
+  }
   return variants;
 }
 
@@ -351,7 +343,7 @@ void take_graph_options(const Arguments& arguments, CompareOptions& options) {
   arguments.refuse({"--queue"}, "queues are compared; say --queues");
   options.graph = given_choice<PlannerKind>(arguments, "--graph");
   studies::PlannerDeal& deal = options.graph_deal;
-  deal = deal_words(arguments, options.graph ? std::vector{*options.graph} : planners_there_are(), DealKind::graph);
+  deal = deal_words(arguments, options.graph ? std::vector{*options.graph} : planners_there_are());
   deal.common.seed = first_seed(arguments);
   studies::deal_planners(deal);
 }

@@ -38,12 +38,10 @@ std::vector<OptionSpec> compare_option_specs();
 /// Throws UsageError.
 CompareOptions compare_options(const Arguments& arguments);
 
-// One comparison from beginning to end, as options ask for it: of planners in a world, of searches on its graph, of
-// searches on random graphs.
-
-/// Runs them and adds what they say; what a signal cuts is there until then, and comparison.stopped names it. `scene`:
-/// the world, nullptr where only random graphs are asked for. `note` is told how far it is. Gives back why the world
-/// has no graph to search, if it has none. Throws UsageError.
+/// One comparison from beginning to end, as options ask for it: of planners in a world, of searches on its graph, of
+/// searches on random graphs. Runs them and adds what they say; what a signal cuts is there until then, and
+/// comparison.stopped names it. `scene`: the world, nullptr where only random graphs are asked for. `note` is told how
+/// far it is. Gives back why the world has no graph to search, if it has none. Throws UsageError.
 std::optional<Outcome> run_comparison(const CompareOptions& options, const Scene* scene, const Execution& execution,
                                       studies::Comparison& comparison,
                                       const std::function<void(std::string_view)>& note);

@@ -107,13 +107,12 @@ int generate(const Arguments& arguments) {
     return maze ? maze_scene(*maze, merged, run.execution()) : polygon_scene(polygons, run.execution());
   });
   double write_seconds = 0.0;
-  std::string note;
-  run.in_stage("write", write_seconds, [&] {
+  const std::string note = run.in_stage("write", write_seconds, [&] {
     const auto bounds = scene.bounds;
     if (ending == ".wkt") scene.bounds.reset();  // or no polygons could be written there
     say_of_picture(arguments, *file, write_world(scene, *file, options, arguments.command_line(), run.execution()));
     scene.bounds = bounds;
-    if (!is_picture(ending)) note = note_of_left_out(scene, *file);
+    return is_picture(ending) ? std::string() : note_of_left_out(scene, *file);
   });
   run.end();
   if (!run.quiet() && *file != "-") {

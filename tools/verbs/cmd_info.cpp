@@ -58,9 +58,15 @@ std::string roadmap_info(std::unique_ptr<RoadmapFile> file, bool check, const Ex
   return meta;
 }
 
-/// Of a maze whose walls are left out; file: its .maze file.
-std::vector<Fact> packed_facts(const Scene& scene, const InputFile& file, const Execution& execution) {
-  const MazeFile maze(file);
+/// file: none of a world that is made. A .maze file whose walls are left out is asked for their number.
+std::vector<Fact> world_facts(const std::string& path, const std::optional<InputFile>& file, const Arguments& arguments,
+                              const Execution& execution) {
+  const bool is_packed = file && is_maze_file(file->bytes());
+  const Scene scene = is_packed ? load_planned_world(path, std::nullopt, arguments, execution)
+                      : file    ? load_world(*file, arguments, execution)
+                                : load_world(path, arguments, execution);
+  if (!is_packed || !is_unmade(scene)) return facts_of(scene, execution);
+  const MazeFile maze(*file);
   maze.check(execution);
   const std::uint64_t walls = maze.wall_count(execution);
   std::vector<Fact> facts = facts_of(scene, execution);
@@ -79,20 +85,6 @@ std::vector<Fact> robot_facts(const std::string& path, const Arguments& argument
   return facts_of(arm_model_of(robot, 0.0, execution));
 }
 
-int tell(const std::string& text, const std::string& as_json, const std::optional<std::string>& json, Run& run) {
-  run.end();
-  if (json) write_file(*json, as_json, run.execution());
-  if (!run.quiet() && json != "-") print_text(text);
-  return exit_code::success;
-}
-
-int tell(const std::vector<Fact>& facts, const std::optional<std::string>& json, Run& run) {
-  std::string text;
-  for (const Fact& fact : facts)
-    text += fmt::format("{}{}\n", run.palette().faint(fmt::format("{:<10} ", fact.name)), printable(fact.text));
-  return tell(text, facts_json(facts), json, run);
-}
-
 int info(const Arguments& arguments) {
   const auto json = output_file(arguments, "--json");
   const std::string& path = arguments.operand(0);
@@ -105,17 +97,22 @@ int info(const Arguments& arguments) {
   const bool is_robot = file && roadmap == nullptr && file->bytes().substr(0, head).find("<robot") != std::string::npos;
   if (roadmap == nullptr) arguments.refuse({"--check"}, "is for roadmap files; others are checked as they are read");
   if (!is_robot) arguments.refuse({"--srdf", "--group", "--package-path"}, "is for a URDF");
+  std::string text;
+  std::string as_json;
   if (roadmap != nullptr) {
-    const std::string meta = roadmap_info(std::move(roadmap), check, run.execution());
-    return tell(meta, meta, json, run);
+    as_json = text = roadmap_info(std::move(roadmap), check, run.execution());
+  } else {
+    const std::vector<Fact> facts =
+        is_robot ? robot_facts(path, arguments, run.execution()) : world_facts(path, file, arguments, run.execution());
+    as_json = facts_json(facts);
+    for (const Fact& fact : facts) {
+      text += fmt::format("{}{}\n", run.palette().faint(fmt::format("{:<10} ", fact.name)), printable(fact.text));
+    }
   }
-  if (is_robot) return tell(robot_facts(path, arguments, run.execution()), json, run);
-  const bool is_packed = file && is_maze_file(file->bytes());
-  const Scene scene = is_packed ? load_planned_world(path, std::nullopt, arguments, run.execution())
-                      : file    ? load_world(*file, arguments, run.execution())
-                                : load_world(path, arguments, run.execution());
-  const bool is_left_out = is_packed && is_unmade(scene);
-  return tell(is_left_out ? packed_facts(scene, *file, run.execution()) : facts_of(scene, run.execution()), json, run);
+  run.end();
+  if (json) write_file(*json, as_json, run.execution());
+  if (!run.quiet() && json != "-") print_text(text);
+  return exit_code::success;
 }
 
 }  // namespace

@@ -62,20 +62,41 @@ class QueryCommand : public AnswerCommand {
   RoadmapSearchFields how_;
 };
 
-/// Answers many questions, which the option `of` names, in lines. ask(query, options, execution) says what it did and
-/// how much was wrong.
-template <class Ask>
-int ask_many(const Arguments& arguments, std::string_view of, Questions questions, const Ask& ask) {
+/// What was done, in words, and how much was wrong.
+using Asked = std::pair<std::string, std::uint64_t>;
+
+Asked ask_lines(const RoadmapQuery& query, const Arguments& arguments, const BatchOptions& how, const Execution& on) {
+  const InputFile file(*arguments.value("--batch"), on);
+  const BatchAccount account = ask_batch(query, file, how, on, print_text);
+  return {fmt::format("{}, {} solved, {} wrong", counted(account.questions, "question", "questions"),
+                      grouped(account.solved), grouped(account.wrong)),
+          account.wrong};
+}
+
+Asked ask_table(const RoadmapQuery& query, const Arguments& arguments, const BatchOptions& how, const Execution& on) {
+  const std::vector<std::string> names = arguments.values("--matrix");
+  const InputFile starts(names[0], on);
+  const InputFile goals(names[1], on);
+  const MatrixAccount account = ask_matrix(query, starts, goals, how, on, print_text);
+  return {fmt::format("{}, {}, {} solved, {} wrong", counted(account.starts, "start", "starts"),
+                      counted(account.goals, "goal", "goals"), grouped(account.solved), grouped(account.wrong)),
+          account.wrong};
+}
+
+/// Answers the many questions of --batch or --matrix, in lines.
+int ask_many(const Arguments& arguments) {
+  const bool is_table = arguments.has("--matrix");
   const BatchOptions options{search_words(arguments), arguments.has("--lengths-only"), arguments.has("--csv")};
   const auto keep_file = output_file(arguments, "--keep");
-  const std::string why = fmt::format("is for one question; {} has many", of);
+  const std::string why = fmt::format("is for one question; {} has many", is_table ? "--matrix" : "--batch");
   arguments.refuse({"--start", "--goal", "--json", "--picture", "--explain"}, why);
   arguments.refuse(picture_option_specs(), why);
   arguments.refuse(path_option_specs(), why);
   Run run(arguments);
   Roadmap roadmap = load_roadmap(arguments, run.execution());
+  const auto questions = is_table || options.lengths_only ? Questions::lengths : Questions::many;
   const auto query = std::make_unique<RoadmapQuery>(roadmap, run.execution(), questions);
-  const auto [said, wrong] = ask(*query, options, run.execution());
+  const auto [said, wrong] = (is_table ? ask_table : ask_lines)(*query, arguments, options, run.execution());
   if (keep_file) {
     learn(roadmap, *query, run.execution());
     write_roadmap(roadmap, *keep_file, run.execution());
@@ -83,30 +104,6 @@ int ask_many(const Arguments& arguments, std::string_view of, Questions question
   run.end();
   run.note(said);
   return wrong == 0 ? exit_code::success : exit_code::bad_data;
-}
-
-int ask_lines(const Arguments& arguments) {
-  const auto questions = arguments.has("--lengths-only") ? Questions::lengths : Questions::many;
-  return ask_many(arguments, "--batch", questions, [&](const auto& query, const auto& how, const auto& on) {
-    const InputFile file(*arguments.value("--batch"), on);
-    const BatchAccount account = ask_batch(query, file, how, on, print_text);
-    return std::pair(fmt::format("{}, {} solved, {} wrong", counted(account.questions, "question", "questions"),
-                                 grouped(account.solved), grouped(account.wrong)),
-                     account.wrong);
-  });
-}
-
-int ask_table(const Arguments& arguments) {
-  return ask_many(arguments, "--matrix", Questions::lengths, [&](const auto& query, const auto& how, const auto& on) {
-    const std::vector<std::string> names = arguments.values("--matrix");
-    const InputFile starts(names[0], on);
-    const InputFile goals(names[1], on);
-    const MatrixAccount account = ask_matrix(query, starts, goals, how, on, print_text);
-    return std::pair(
-        fmt::format("{}, {}, {} solved, {} wrong", counted(account.starts, "start", "starts"),
-                    counted(account.goals, "goal", "goals"), grouped(account.solved), grouped(account.wrong)),
-        account.wrong);
-  });
 }
 
 int query_roadmap(const Arguments& arguments) {
@@ -121,8 +118,7 @@ int query_roadmap(const Arguments& arguments) {
   if (arguments.has("--bound") && (matrix || arguments.has("--lengths-only"))) {
     throw UsageError("--bound: is of paths; lengths alone have none");
   }
-  if (batch) return ask_lines(arguments);
-  if (matrix) return ask_table(arguments);
+  if (batch || matrix) return ask_many(arguments);
   if (arguments.has("--csv")) throw UsageError("--csv: needs --batch FILE or --matrix STARTS GOALS, many questions");
   return QueryCommand(arguments).run();
 }

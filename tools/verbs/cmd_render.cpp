@@ -7,7 +7,6 @@
 #include "core/base/error.hpp"
 #include "pictures/draw_answer.hpp"
 #include "pictures/formats/write_picture.hpp"
-#include "scenes/files/ros_map_io.hpp"
 #include "solve/answer/read_answer_io.hpp"
 #include "solve/answer/world_account.hpp"
 #include "solve/question/question.hpp"
@@ -59,9 +58,7 @@ int render(const Arguments& arguments) {
   Scene scene = load_world(arguments.operand(0), arguments, run.execution());
   Prices& prices = answer.problem.prices;  // the command line's, else the answer's; and the world's
   if (Prices asked = price_words(arguments); !asked.empty()) prices = std::move(asked);
-  check_not_written(arguments, prices);
-  read_masks(prices, run.execution());
-  check_not_written(arguments, prices);
+  read_asked_files(answer.problem, arguments, run.execution());
   prices = prices_of(scene, answer.problem);
   check_not_written(arguments, answer.problem.robot);
   if (answer_file) check_plannable(scene, answer.problem);

@@ -25,8 +25,6 @@
 namespace warren::tools {
 namespace {
 
-constexpr std::uint16_t usual_port = 8765;
-
 constexpr OptionSpec serve_specs[] = {
     {"--port", "N", "port to listen at; 0 takes a free one (default: 8765)"},
     {"--listen", "ADDRESS",
@@ -59,11 +57,10 @@ std::unique_ptr<serve::ServedWorld> load_served(const Arguments& arguments, cons
 }
 
 serve::HttpPlace place_of(const Arguments& arguments) {
-  constexpr std::uint64_t last_port = 65535;
-  serve::HttpPlace place{.port = usual_port};
-  if (const auto port = arguments.value("--port")) {
-    place.port = static_cast<std::uint16_t>(count_value("--port", *port, 0, last_port));
-  }
+  constexpr std::uint32_t last_port = 65535;
+  constexpr std::uint32_t usual_port = 8765;
+  const auto port = given_count(arguments, "--port", 0, last_port).value_or(usual_port);
+  serve::HttpPlace place{.port = static_cast<std::uint16_t>(port)};
   if (const auto address = arguments.value("--listen")) place.addresses = {*address};
   for (const std::string& text : arguments.values("--public-url")) {
     const auto url = serve::public_url_of(text);

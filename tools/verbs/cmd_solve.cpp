@@ -81,8 +81,7 @@ class SolveCommand : public AnswerCommand {
     constexpr std::array words{"--planner",   "--sampler",      "--samples", "--robot",   "--start",
                                "--goal",      "--optimise",     "--explain", "--picture", "--path",
                                "--heuristic", "--save-roadmap", "--queue",   "--search"};
-    const bool is_usual =
-        std::none_of(words.begin(), words.end(), [&](const char* word) { return arguments_.has(word); });
+    const bool is_usual = std::ranges::none_of(words, [&](const char* word) { return arguments_.has(word); });
     const bool is_written = arguments_.has("--json") && !arguments_.has("--no-path");
     if (!is_usual || is_written || !is_maze_source(arguments_.operand(0))) return {};
     const auto pipeline = options_.roadmap.pipeline;

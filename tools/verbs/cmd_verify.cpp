@@ -8,7 +8,6 @@
 
 #include "core/base/error.hpp"
 #include "scenes/files/npy_io.hpp"
-#include "scenes/files/ros_map_io.hpp"
 #include "scenes/scene/scene.hpp"
 #include "scenes/text/human_units.hpp"
 #include "scenes/text/output_file_io.hpp"
@@ -33,13 +32,14 @@ constexpr OptionSpec verify_specs[] = {
     {"--explain", "", "say where along the path there is least room"},
 };
 
-std::string verdict_json(const Verdict& v, const std::string& more) {
-  const std::string violation = v.first_violation ? violation_json(*v.first_violation) : "null";
-  return fmt::format(
-      "{{\"schema\": \"warren.verify/1\",\n \"verified\": {},\n \"length\": {},\n \"min_clearance\": {},\n "
-      "\"first_violation\": {},\n \"bound\": {}{}}}\n",
-      v.verified, json_number(v.length), json_number(v.min_clearance), violation,
-      v.bound == BoundVerdict::absent ? "null" : fmt::format("\"{}\"", name_of(v.bound)), more);
+/// narrowest: as JSON; empty: nobody asked.
+std::string verdict_json(const Verdict& v, const std::string& narrowest) {
+  JsonObject json(",\n ", ": ");
+  json.add("schema", "warren.verify/1", "verified", v.verified, "length", v.length, "min_clearance", v.min_clearance);
+  json.add_json("first_violation", v.first_violation ? violation_json(*v.first_violation) : "null");
+  json.add_or_null("bound", v.bound != BoundVerdict::absent, name_of(v.bound));
+  if (!narrowest.empty()) json.add_json("narrowest", narrowest);
+  return json.closed() + "\n";
 }
 
 void print_verdict(const Verdict& v, std::string_view metres, const Palette& palette) {
@@ -64,17 +64,6 @@ void print_verdict(const Verdict& v, std::string_view metres, const Palette& pal
                          distance == needed ? "a hair more" : needed.append(metres)));
 }
 
-/// What stops it leaves the verdict as it is.
-std::optional<NarrowPlace> narrowest_in_time(const Scene& scene, const Verdict& verdict, const RecordedAnswer& answer,
-                                             const Run& run) {
-  std::optional<NarrowPlace> narrow;
-  const auto stopped = stopped_by([&] {
-    narrow = narrowest_place(scene, verdict.problem.question(), answer, verdict.min_clearance, run.execution());
-  });
-  if (stopped) run.note(fmt::format("--explain ended early, {}; the verdict stands", text_of(*stopped)));
-  return narrow;
-}
-
 int verify_answer(const Arguments& arguments) {
   const auto json = output_file(arguments, "--json");
   if (arguments.operand(0).ends_with(".json") && !arguments.operand(1).ends_with(".json")) {
@@ -86,10 +75,7 @@ int verify_answer(const Arguments& arguments) {
   check_not_written(arguments, question.prices);
   Run run(arguments);
   RecordedAnswer answer = read_answer(arguments.operand(1), run.execution());
-  Prices& masks = question.prices.empty() ? answer.problem.prices : question.prices;
-  check_not_written(arguments, masks);  // what becomes polygons has no name any more
-  read_masks(masks, run.execution());
-  check_not_written(arguments, masks);
+  read_asked_files(question.prices.empty() ? answer.problem : question, arguments, run.execution());
   if (const auto proof = arguments.value("--certificate")) {
     answer.certificate = read_potential_npy(InputFile(*proof, run.execution()), run.execution());
   }
@@ -100,10 +86,14 @@ int verify_answer(const Arguments& arguments) {
       answer.path.size() + scene.walls.size());
   const bool explains = arguments.has("--explain");
   std::optional<NarrowPlace> narrow;
-  if (explains && verdict.verified) narrow = narrowest_in_time(scene, verdict, answer, run);
+  const auto stopped = stopped_by([&] {
+    if (!explains || !verdict.verified) return;
+    narrow = narrowest_place(scene, verdict.problem.question(), answer, verdict.min_clearance, run.execution());
+  });
+  if (stopped) run.note(fmt::format("--explain ended early, {}; the verdict stands", text_of(*stopped)));
   run.end();
-  const std::string more = explains ? ",\n \"narrowest\": " + narrowest_json(narrow) : "";
-  if (json) write_file(*json, verdict_json(verdict, more), run.execution_for_what_is_left());
+  const std::string told = explains ? narrowest_json(narrow) : "";
+  if (json) write_file(*json, verdict_json(verdict, told), run.execution_for_what_is_left());
   if (!run.quiet() && json != "-") {
     print_verdict(verdict, metres_behind(unit_of(scene)), run.palette());
     if (narrow) print_text(text_of(*narrow) + "\n");

@@ -98,7 +98,7 @@ std::vector<OptionSpec> joined_options(std::initializer_list<std::span<const Opt
 /// But for those named.
 std::vector<OptionSpec> options_but(std::span<const OptionSpec> options, std::initializer_list<std::string_view> names);
 
-// The verbs, in files cmd_NAME.cpp: update is in that of build, man in that of help.
+// The verbs, in files cmd_NAME.cpp: update is in that of build, export of convert, largest of scale, man of help.
 Command bench_scen_command();
 Command build_command();
 Command compare_command();

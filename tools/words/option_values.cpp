@@ -33,11 +33,14 @@ std::optional<double> quantity_in(std::string_view text, std::span<const Unit> u
   return std::nullopt;
 }
 
-std::optional<std::uint64_t> count_in(std::string_view text, std::uint64_t low, std::uint64_t high) {
+/// expected: what it must be, "a whole number" or more.
+std::uint64_t count_in(std::string_view option, std::string_view text, std::uint64_t low, std::uint64_t high,
+                       std::string_view expected) {
   std::uint64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   const bool is_count = error == std::errc{} && end == text.data() + text.size();
-  return is_count && value >= low && value <= high ? std::optional(value) : std::nullopt;
+  if (is_count && value >= low && value <= high) return value;
+  refuse(option, fmt::format("{} from {} to {}", expected, low, high), text);
 }
 
 /// An angle may be said in degrees.
@@ -71,17 +74,13 @@ double positive_value(std::string_view option, std::string_view text) {
 }
 
 std::uint64_t count_value(std::string_view option, std::string_view text, std::uint64_t low, std::uint64_t high) {
-  const auto value = count_in(text, low, high);
-  if (!value) refuse(option, fmt::format("a whole number from {} to {}", low, high), text);
-  return *value;
+  return count_in(option, text, low, high, "a whole number");
 }
 
 std::optional<std::uint64_t> auto_or_count_value(std::string_view option, std::string_view text, std::uint64_t low,
                                                  std::uint64_t high) {
   if (text == "auto") return std::nullopt;
-  const auto value = count_in(text, low, high);
-  if (!value) refuse(option, fmt::format("auto, or a whole number from {} to {}", low, high), text);
-  return value;
+  return count_in(option, text, low, high, "auto, or a whole number");
 }
 
 double duration_value(std::string_view option, std::string_view text) {

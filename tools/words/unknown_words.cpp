@@ -21,11 +21,8 @@ constexpr std::pair<std::string_view, std::string_view> spellings[] = {
 
 /// Without what differs from one writer to the next.
 std::string letters_of(std::string_view word) {
-  std::string letters;
-  for (const char c : word) {
-    if (std::string_view("-_ \\").find(c) != std::string_view::npos) continue;
-    letters += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  }
+  std::string letters = small_letters(word);
+  std::erase_if(letters, [](char c) { return std::string_view("-_ \\").find(c) != std::string_view::npos; });
   if (letters.ends_with("star")) letters.replace(letters.size() - 4, 4, "*");
   constexpr std::size_t shortest_plural = 4;
   if (letters.size() >= shortest_plural && letters.ends_with('s')) letters.pop_back();

@@ -27,9 +27,6 @@ class Improvement(NamedTuple):
     lower_bound: float
 
 
-Improvement.__module__ = "warren"
-
-
 class Alternative(NamedTuple):
     """The cheapest path of another homotopy class: `passed` are the holes whose cuts it crosses, below 0 from the other
     side; all else is as of :class:`Answer`."""
@@ -60,7 +57,7 @@ class KeptRoute(NamedTuple):
     new_cost: Optional[float]
 
 
-for _kind in (Alternative, GoalReached, KeptRoute):
+for _kind in (Improvement, Alternative, GoalReached, KeptRoute):
     _kind.__module__ = "warren"
 
 
@@ -130,74 +127,36 @@ class Answer(Pictured):
     bound_of = told("bound_of", """Of what a priced lower bound is: "all" paths, or those over the "lattice"; None of
         others.""")
     goal_index = told("goal_index", "Of several goals the one that is reached, from 0; None where there was one.")
-
-    @property
-    def goal_reached(self):
-        """Where the path ends, as a :class:`GoalReached`, where the question left a choice; else None."""
-        said = self._core.goal_reached
-        return None if said is None else GoalReached(*said)
-
+    goal_reached = told("goal_reached", """Where the path ends, as a :class:`GoalReached`, where the question left a
+        choice; else None.""", GoalReached._make)
     order = told("order", "Of places to visit, from 0, as they are visited: a list of int.")
     passed = told("passed", """The class of the path where alternatives were asked: holes whose cuts it crosses, below 0
         from the other side.""")
-
-    @property
-    def alternatives(self):
-        """The cheapest paths of other classes, the cheapest first: a list of :class:`Alternative`."""
-        return [Alternative(*figures) for figures in self._core.alternatives]
-
-    @property
-    def holes(self):
-        """The holes that classes name: a dict of their boxes (x, y, x, y)."""
-        return dict(self._core.holes)
-
-    @property
-    def keeping(self):
-        """What became of the path that was to be kept, as a :class:`KeptRoute`; else None."""
-        said = self._core.keeping
-        return None if said is None else KeptRoute(*said)
-
+    alternatives = told("alternatives", """The cheapest paths of other classes, the cheapest first: a list of
+        :class:`Alternative`.""", lambda paths: [Alternative(*figures) for figures in paths])
+    holes = told("holes", "The holes that classes name: a dict of their boxes (x, y, x, y).", dict)
+    keeping = told("keeping", "What became of the path that was to be kept, as a :class:`KeptRoute`; else None.",
+                   KeptRoute._make)
     iterations = told("iterations", """The turns of a planner that gets better, which `iterations=` repeats on any machine;
         None of the others.""")
     ended_by = told("ended_by", '''What ended a planner that gets better: "optimum", "gap", "iterations", "nodes", "caller"
         (`on_improvement` said False), "budget", "memory" or a signal; "goal", "goal_gap", "lattice" or "lattice_gap": the
         best, or near it, to one of several goals, of each leg, or over the lattice. None of the others.''')
-
-    @property
-    def improvements(self):
-        """Of planners that get better: each path that was the best so far, a list of :class:`Improvement`."""
-        return [Improvement(*figures) for figures in self._core.improvements]
-
+    improvements = told("improvements", """Of planners that get better: each path that was the best so far, a list of
+        :class:`Improvement`.""", lambda paths: [Improvement(*figures) for figures in paths])
     turn_rad = told("turn_rad", "All turning along the path; nan for bodies that don't turn.")
     planner = told("planner", "Who found it.")
     seed = told("seed", "Of all that was random.")
     robot = told("robot", "The body that was asked about.")
     clearance = told("clearance", "The room that was asked for.")
-
-    @property
-    def start(self):
-        """Where the path was to begin."""
-        return tuple(self._core.start)
-
-    @property
-    def goal(self):
-        """Where the path was to end."""
-        return tuple(self._core.goal)
-
+    start = told("start", "Where the path was to begin.", tuple)
+    goal = told("goal", "Where the path was to end.", tuple)
     seconds = told("seconds", "What each stage took.")
     solve_s = told("solve_s", "What all of it took, in seconds.")
-
-    @property
-    def blocked(self):
-        """Where start or goal is blocked, why, as a :class:`BlockedEnd`; else None."""
-        said = self._core.blocked
-        return None if said is None else BlockedEnd(**said)
-
-    @property
-    def explained(self):
-        """What it means, as an :class:`Explanation`, where `explain=True` asked for it; else None."""
-        said = self._core.explained
-        return None if said is None else explanation(said)
+    blocked = told("blocked", "Where start or goal is blocked, why, as a :class:`BlockedEnd`; else None.",
+                   lambda said: BlockedEnd(**said))
+    explained = told("explained", """What it means, as an :class:`Explanation`, where `explain=True` asked for it; else
+        None.""", explanation)
 
     def json(self):
         """The answer as warren.answer/1, byte for byte what `warren solve --json -` prints (but for measured times,

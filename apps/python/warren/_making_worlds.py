@@ -159,8 +159,7 @@ def grid(cells, cell=1.0, origin=(0.0, 0.0), *, yaw=0.0,
             at = tuple(int(i) for i in broken[0])
             raise TypeError(f"cells: expected bool or whole numbers (found: {cells[at]} at {at}); say what is blocked, as in "
                             "cells > 0.5")
-        cells = cells != 0
-    if cells.dtype.kind in "iu" and cells.itemsize > 1 or cells.dtype.kind == "i":
+    if cells.dtype.kind in "fi" or cells.dtype.kind == "u" and cells.itemsize > 1:
         cells = cells != 0
     said = {"start": start, "goal": goal, "robot": robot, "clearance": clearance}
     return World(_core.cells(cells, float(cell), (float(origin[0]), float(origin[1])), float(yaw), said))

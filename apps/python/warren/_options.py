@@ -26,9 +26,15 @@ progress : callable, optional
 """
 
 
-def told(name, doc):
-    """A property that the core has under the same name."""
-    return property(operator.attrgetter("_core." + name), doc=doc)
+def told(name, doc, of=None):
+    """A property that the core has under the same name; or what `of` makes of it, unless it is None."""
+    said = operator.attrgetter("_core." + name)
+
+    def made(thing):
+        value = said(thing)
+        return None if value is None else of(value)
+
+    return property(said if of is None else made, doc=doc)
 
 
 def _kind(value, choices, optional):

@@ -13,14 +13,6 @@ WALL, POLYGON, OUTLINE, BODY = "#1e293b", "#d9dde3", "#66717f", "#30b090"
 EDGE, TREE, LINE, PATH, START, GOAL = "#9cc3ea", "#f0b429", "#96d3a8", "#c8102e", "#0072b2", "#6a0dad"
 
 
-def _axes(ax):
-    if ax is not None:
-        return ax
-    from matplotlib import pyplot
-    _, made = pyplot.subplots()
-    return made
-
-
 def _draw_cells(ax, world):
     from matplotlib.colors import ListedColormap
     from matplotlib.transforms import Affine2D
@@ -40,23 +32,22 @@ def _draw_cells(ax, world):
 
 
 def _draw_world(ax, world):
-    from matplotlib.collections import LineCollection, PolyCollection
+    from matplotlib.collections import PolyCollection
     _draw_cells(ax, world)
     if world.polygons:
         ax.add_collection(PolyCollection(world.polygons, facecolor=POLYGON, edgecolor=OUTLINE, linewidth=0.5))
-    if len(world.walls):
-        ax.add_collection(LineCollection(world.walls.reshape(-1, 2, 2), colors=WALL, linewidth=1.0))
+    _draw_segments(ax, world.walls.reshape(-1, 2, 2), WALL, width=1.0)
     if len(world.spheres) or len(world.boxes) or world.solids:
         raise ValueError("plot: draws the plane; answer.svg() shows arms from three sides")
     if world.bounds is not None:
         x0, y0, x1, y1 = world.bounds
-        ax.add_collection(LineCollection([[(x0, y0), (x1, y0), (x1, y1), (x0, y1), (x0, y0)]], colors=WALL, linewidth=1.0))
+        _draw_segments(ax, [[(x0, y0), (x1, y0), (x1, y1), (x0, y1), (x0, y0)]], WALL, width=1.0)
 
 
-def _draw_segments(ax, segments, color, label):
+def _draw_segments(ax, segments, color, label="", width=0.5):
     from matplotlib.collections import LineCollection
     if len(segments):
-        ax.add_collection(LineCollection(segments, colors=color, linewidth=0.5, label=label))
+        ax.add_collection(LineCollection(segments, colors=color, linewidth=width, label=label))
 
 
 def _roadmap_segments(roadmap):
@@ -138,28 +129,30 @@ def plot(what, *, answer=None, ax=None, roadmap=True, tree=False,
     >>> [artist.get_label() for artist in ax.lines]
     ['path', 'start', 'goal']
     """
-    axes = _axes(ax)
+    if ax is None:
+        from matplotlib import pyplot
+        _, ax = pyplot.subplots()
     if isinstance(what, Answer):
         what, answer = what.world, what if answer is None else answer
     if isinstance(what, Roadmap):
-        _draw_world(axes, what.world)
-        _draw_segments(axes, _roadmap_segments(what), EDGE, "roadmap")
+        _draw_world(ax, what.world)
+        _draw_segments(ax, _roadmap_segments(what), EDGE, "roadmap")
     else:
-        _draw_world(axes, as_world(what))
+        _draw_world(ax, as_world(what))
     if answer is not None:
         if lines:
             for name, chains in answer.lines().items():
                 from matplotlib.collections import LineCollection
-                axes.add_collection(LineCollection(chains, colors=LINE, linewidth=0.6, label=name))
+                ax.add_collection(LineCollection(chains, colors=LINE, linewidth=0.6, label=name))
         if roadmap:
-            _draw_segments(axes, answer.edges(), EDGE, "roadmap")
+            _draw_segments(ax, answer.edges(), EDGE, "roadmap")
         if tree:
-            _draw_segments(axes, answer.edges(tree=True), TREE, "tree")
-        _draw_answer(axes, answer, bodies)
-    axes.set_xlabel("x"), axes.set_ylabel("y")
-    axes.set_aspect("equal")
-    axes.autoscale_view()
-    return axes
+            _draw_segments(ax, answer.edges(tree=True), TREE, "tree")
+        _draw_answer(ax, answer, bodies)
+    ax.set_xlabel("x"), ax.set_ylabel("y")
+    ax.set_aspect("equal")
+    ax.autoscale_view()
+    return ax
 
 
 def animate(answer, *, ax=None, frames=200, interval=40.0, speed=None,

@@ -130,9 +130,7 @@ class Roadmap(Pictured):
         ------
         UsageError, InputError, Stopped
         """
-        options["start"] = start
-        options["goal"] = goal
-        return finished(self._core.ask(options, keep, explain), self.world)
+        return finished(self._core.ask({**options, "start": start, "goal": goal}, keep, explain), self.world)
 
     def lengths(self, starts, goals, **options):
         """Lengths of the shortest ways from each start to the goal beside it, on all threads.

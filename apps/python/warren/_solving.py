@@ -124,6 +124,7 @@ class Replanner:
     """
 
     __slots__ = ("_core",)
+    __module__ = "warren"
 
     def __init__(self, world, start=None, goal=None, **options):
         _take_ends(options, start, goal)
@@ -147,9 +148,6 @@ class Replanner:
     def world(self):
         """The world as it is now."""
         return World(self._core.scene())
-
-
-Replanner.__module__ = "warren"
 
 
 class Verdict(NamedTuple):

@@ -67,16 +67,9 @@ class World(Pictured):
     maze = told("maze", "Rows and columns, where all walls lie on the unit grid of a maze.")
     robot = told("robot", "The body that the world is asked about where the question names none.")
     clearance = told("clearance", "The room around the body where the question names none.")
-
-    @property
-    def start(self):
-        """Where paths begin that aren't asked to begin elsewhere."""
-        return tuple(self._core.start) or None
-
-    @property
-    def goal(self):
-        """Where paths end that aren't asked to end elsewhere."""
-        return tuple(self._core.goal) or None
+    start = told("start", "Where paths begin that aren't asked to begin elsewhere.",
+                 lambda numbers: tuple(numbers) or None)
+    goal = told("goal", "Where paths end that aren't asked to end elsewhere.", lambda numbers: tuple(numbers) or None)
 
     @property
     def hash(self):

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/serve/api/graph_service.hpp"
-
+// What is asked about route graphs of the served world.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <vector>
 
-#include "apps/serve/graphs/route_graph.hpp"
-#include "apps/serve/graphs/route_graph_io.hpp"
+#include "apps/serve/api/world_service.hpp"
 #include "core/base/error.hpp"
 
 namespace warren::serve {

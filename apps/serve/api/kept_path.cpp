@@ -213,29 +213,25 @@ KeptCurve::KeptCurve(Path<Vec2> path, const Execution& execution)
   execution.reserve(size_ / 4 + blocks_.size() * sizeof(Block));
   steps_.resize(chunk_count(size_, steps_in_word));
   std::vector<char> are_steps(blocks_.size());
-  for_chunks(blocks_.size(), 1, execution, [&](Range r) {
-    const std::size_t first = r.first * block_points;
-    const std::size_t last = first + points_in(r.first);
+  for_each_index(blocks_.size(), 1, execution, [&](std::size_t block) {
+    const std::size_t first = block * block_points;
+    const std::size_t last = first + points_in(block);
     Box box;
     for (std::size_t i = first; i < last; ++i) box.include(points_[i]);
-    blocks_[r.first] = {.first = points_[std::min(std::max<std::size_t>(first, 1), size_ - 1)], .box = box};
-    const bool begins_well = is_lattice_point(blocks_[r.first].first) || size_ < 4;
-    are_steps[r.first] = begins_well && pack(points_, first, last - 1, steps_) ? 1 : 0;
+    blocks_[block] = {.first = points_[std::min(std::max<std::size_t>(first, 1), size_ - 1)], .box = box};
+    const bool begins_well = is_lattice_point(blocks_[block].first) || size_ < 4;
+    are_steps[block] = begins_well && pack(points_, first, last - 1, steps_) ? 1 : 0;
   });
   if (size_ > 3 && std::ranges::count(are_steps, 0) == 0) {
     points_ = Path<Vec2>();
-  } else {
-    steps_ = std::vector<std::uint64_t>();
-    measure_blocks(execution);
+    return;
   }
-}
-
-void KeptCurve::measure_blocks(const Execution& execution) {
-  for_chunks(blocks_.size(), 1, execution, [&](Range r) {
-    const std::size_t first = r.first * block_points;
+  steps_ = std::vector<std::uint64_t>();
+  for_each_index(blocks_.size(), 1, execution, [&](std::size_t block) {
+    const std::size_t first = block * block_points;
     double length = 0.0;
-    for (std::size_t i = first; i + 1 < first + points_in(r.first); ++i) length += distance(points_[i], points_[i + 1]);
-    if (r.last < blocks_.size()) blocks_[r.last].length_before = length;
+    for (std::size_t i = first; i + 1 < first + points_in(block); ++i) length += distance(points_[i], points_[i + 1]);
+    if (block + 1 < blocks_.size()) blocks_[block + 1].length_before = length;
   });
   for (std::size_t block = 1; block < blocks_.size(); ++block) {
     blocks_[block].length_before += blocks_[block - 1].length_before;
@@ -255,10 +251,13 @@ std::size_t KeptCurve::points_in(std::size_t block) const {
   return std::min(block_points + 1, size_ - block * block_points);
 }
 
-void KeptCurve::unpack(std::size_t block, Vec2* to) const {
+std::span<const Vec2> KeptCurve::points(std::size_t block, std::vector<Vec2>& room) const {
+  if (steps_.empty()) return std::span<const Vec2>(points_).subspan(block * block_points, points_in(block));
   constexpr double motion[][2] = {{1.0, 0.0}, {0.0, 1.0}, {-1.0, 0.0}, {0.0, -1.0}};
   const std::size_t first = block * block_points;
   const std::size_t last = first + points_in(block);
+  room.resize(last - first);
+  Vec2* to = room.data();
   Vec2 at = blocks_[block].first;
   std::size_t leg = first;
   if (first == 0) {
@@ -272,12 +271,6 @@ void KeptCurve::unpack(std::size_t block, Vec2* to) const {
     *++to = at;
   }
   if (last == size_) *to = ends_[1];
-}
-
-std::span<const Vec2> KeptCurve::points(std::size_t block, std::vector<Vec2>& room) const {
-  if (steps_.empty()) return std::span<const Vec2>(points_).subspan(block * block_points, points_in(block));
-  room.resize(points_in(block));
-  unpack(block, room.data());
   return room;
 }
 
@@ -285,12 +278,12 @@ Path<Vec2> KeptCurve::whole(const Execution& execution) const {
   execution.reserve(size_ * sizeof(Vec2));
   if (steps_.empty()) return points_;
   Path<Vec2> path(size_);
-  for_chunks(blocks_.size(), 1, execution, [&](Range r) {
+  for_each_index(blocks_.size(), 1, execution, [&](std::size_t block) {
     std::vector<Vec2> room;
-    const std::span<const Vec2> points = this->points(r.first, room);
+    const std::span<const Vec2> points = this->points(block, room);
     // The last is the next block's, which another thread writes.
-    const std::size_t count = points.size() - (r.first + 1 < blocks_.size() ? 1 : 0);
-    std::copy_n(points.begin(), count, path.begin() + static_cast<std::ptrdiff_t>(r.first * block_points));
+    const std::size_t count = points.size() - (block + 1 < blocks_.size() ? 1 : 0);
+    std::copy_n(points.begin(), count, path.begin() + static_cast<std::ptrdiff_t>(block * block_points));
   });
   return path;
 }

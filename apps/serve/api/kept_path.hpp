@@ -47,9 +47,7 @@ class KeptCurve {
     Box box;
     double length_before = 0.0;  // of points; steps say theirs by themselves
   };
-  void measure_blocks(const Execution& execution);
   std::size_t points_in(std::size_t block) const;
-  void unpack(std::size_t block, Vec2* to) const;
 
   std::size_t size_ = 0;
   Path<Vec2> points_;                 // empty where there are steps

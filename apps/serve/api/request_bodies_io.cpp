@@ -217,10 +217,8 @@ std::string shapes_json(const DrawnShapes& shapes) {
   const auto wall_json = [](const Segment& wall) {
     return json_list(std::span<const double>(std::array{wall.a.x, wall.a.y, wall.b.x, wall.b.y}));
   };
-  JsonObject json;
-  json.add_json("walls", json_list_of(shapes.walls, ",", wall_json));
-  json.add_json("polygons", json_chains(shapes.polygons, Execution()));
-  return json.closed();
+  return json_object("walls", JsonText{json_list_of(shapes.walls, ",", wall_json)}, "polygons",
+                     JsonText{json_chains(shapes.polygons, Execution())});
 }
 
 std::string cells_json(std::vector<CellChange> cells, bool blocked) {
@@ -389,8 +387,7 @@ std::string json_chains(const std::vector<std::vector<Vec2>>& chains, const Exec
 
 void tell_change(JsonObject& json, const ChangedScene& change) {
   if (!change.cells) {
-    json.add_json("added", shapes_json(change.made.add));
-    json.add_json("removed", shapes_json(change.made.remove));
+    json.add("added", JsonText{shapes_json(change.made.add)}, "removed", JsonText{shapes_json(change.made.remove)});
     return;
   }
   const CellCounts& counts = *change.cells;
@@ -398,8 +395,8 @@ void tell_change(JsonObject& json, const ChangedScene& change) {
   json.add("blocked_cells", counts.blocked, "freed_cells", counts.freed, "known_cells", counts.known,
            "can_be_taken_back", is_listed && counts.known == 0);
   if (!is_listed) return;
-  json.add_json("blocked", cells_json(change.made.cells, true));
-  json.add_json("freed", cells_json(change.made.cells, false));
+  json.add("blocked", JsonText{cells_json(change.made.cells, true)}, "freed",
+           JsonText{cells_json(change.made.cells, false)});
 }
 
 ChangedScene changed(const Scene& scene, const SceneChange& change, const std::optional<MazeHint>& maze,

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <utility>
 
-#include "apps/serve/graphs/edge_judge.hpp"
+#include "apps/serve/graphs/route_graph.hpp"
 #include "apps/serve/tiles/world_tiles.hpp"
 #include "core/run/execution.hpp"
 #include "parallel/once.hpp"

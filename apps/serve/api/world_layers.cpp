@@ -7,7 +7,6 @@
 #include <algorithm>
 
 #include "apps/serve/api/kept_path.hpp"
-#include "apps/serve/graphs/route_graph.hpp"
 #include "core/base/error.hpp"
 #include "scenes/scene/scene.hpp"
 #include "scenes/text/human_units.hpp"
@@ -200,18 +199,15 @@ std::vector<LayerAccount> accounts_of(const ServedWorld& world) {
 }
 
 std::string json_of_account(const LayerAccount& account, const std::string& hash) {
+  if (!account.why.empty()) return json_object("name", account.name, "there", false, "why", account.why);
   JsonObject json;
-  json.add("name", account.name, "there", account.why.empty());
-  if (!account.why.empty()) {
-    json.add("why", account.why);
-    return json.closed();
-  }
-  if (account.is_of_path) {
-    json.add("of_path", std::string("api/path/{id}/") + std::string(account.name));
-    return json.closed();
-  }
+  json.add("name", account.name, "there", true);
   const std::string address = fmt::format("v/{}/layers/{}/", hash, account.name);
-  json.add("url", address + "{z}/{x}/{y}.png", "legend", address + "legend", "from_zoom", account.from_zoom);
+  if (account.is_of_path) {
+    json.add("of_path", fmt::format("api/path/{{id}}/{}", account.name));
+  } else {
+    json.add("url", address + "{z}/{x}/{y}.png", "legend", address + "legend", "from_zoom", account.from_zoom);
+  }
   if (account.is_of_start) json.add("of_start", true);
   return json.closed();
 }

@@ -11,10 +11,8 @@
 #include <span>
 #include <utility>
 
-#include "apps/serve/api/graph_service.hpp"
 #include "apps/serve/api/kept_path.hpp"
 #include "apps/serve/api/request_bodies_io.hpp"
-#include "apps/serve/api/route.hpp"
 #include "apps/serve/api/world_layers.hpp"
 #include "apps/serve/http/http_message.hpp"
 #include "apps/serve/http/kept_values.hpp"
@@ -74,18 +72,13 @@ std::string RunningQuestions::told(const std::string& name, std::uint64_t from) 
   });
   if (!is_running) return "{\"running\":false}";
   const auto told_json = [](const Told& one) {
-    JsonObject json;
     const Improvement& better = one.improvement;
-    json.add("iterations", better.iterations, "seconds", better.seconds, "length", better.length, "cost", better.cost,
-             "by", better.by);
-    json.add_or_null("lower_bound", better.lower_bound > 0.0, better.lower_bound);
-    json.add_json("chains", json_chains({one.way}, {}));
-    return json.closed();
+    const auto bound = better.lower_bound > 0.0 ? std::optional(better.lower_bound) : std::nullopt;
+    return json_object("iterations", better.iterations, "seconds", better.seconds, "length", better.length, "cost",
+                       better.cost, "by", better.by, "lower_bound", bound, "chains",
+                       JsonText{json_chains({one.way}, {})});
   };
-  JsonObject json;
-  json.add("running", true, "first", first);
-  json.add_json("improvements", json_list_of(fresh, ", ", told_json));
-  return json.closed();
+  return json_object("running", true, "first", first, "improvements", JsonText{json_list_of(fresh, ", ", told_json)});
 }
 
 namespace {
@@ -98,22 +91,18 @@ std::size_t sample_count(const HttpRequest& request) {
   throw HttpError(400, "bad_request", "query", "samples: expected a whole number, 2 to 2000");
 }
 
-std::string place_json(Vec2 at) { return json_list(std::span<const double>(std::array{at.x, at.y})); }
-
 /// What is drawn of a body: corners, or the radius of one that has none.
 void add_outline(JsonObject& json, const RobotSpec& robot) {
-  json.add("radius", robot.outline.empty() ? robot.radius : 0.0);
-  json.add_json("outline", json_list_of(robot.outline, ",", place_json));
+  const auto corner_json = [](Vec2 at) { return numbers_json(std::array{at.x, at.y}).text; };
+  json.add("radius", robot.outline.empty() ? robot.radius : 0.0, "outline",
+           JsonText{json_list_of(robot.outline, ",", corner_json)});
 }
 
 // What a service says of its world and of itself.
 
 std::string tiles_json(const TileGrid& grid, const std::string& hash) {
-  JsonObject json;
-  json.add("url", "v/" + hash + "/tiles/{z}/{x}/{y}.png", "pixels", TileGrid::pixels, "levels", grid.levels);
-  json.add_json("corner", place_json(grid.corner));
-  json.add("span", grid.span);
-  return json.closed();
+  return json_object("url", "v/" + hash + "/tiles/{z}/{x}/{y}.png", "pixels", TileGrid::pixels, "levels", grid.levels,
+                     "corner", numbers_json(std::array{grid.corner.x, grid.corner.y}), "span", grid.span);
 }
 
 /// Those that a question may name.
@@ -156,10 +145,8 @@ std::string ground_json(const ServedWorld& world, const Question& body, const Ex
     points += layer.lines.corners.size();
     for (std::size_t i = 0; i < layer.lines.size() && points <= most_points; ++i)
       chains.emplace_back(layer.lines[i].begin(), layer.lines[i].end());
-    JsonObject json;
-    json.add("label", layer.label, "color", css_color(layer.fill.value_or(layer.color)), "opacity", layer.opacity);
-    json.add_json("chains", json_chains(chains, execution));
-    return json.closed();
+    return json_object("label", layer.label, "color", css_color(layer.fill.value_or(layer.color)), "opacity",
+                       layer.opacity, "chains", JsonText{json_chains(chains, execution)});
   };
   return json_list_of(price_layers(prices_of(outline, body), outline.map, radius, execution), ",", layer_json);
 }
@@ -174,13 +161,11 @@ std::string description_json(const ServedWorld& world, const Question& body, con
   json.add("opened_as", world.is_roadmap() ? "roadmap" : "world", "description", words_of_world(outline));
   json.add("hash", world.hash(), "unit", unit_of(outline));
   const Box& box = world.box();
-  json.add_json("box", json_list(std::span<const double>(std::array{box.min.x, box.min.y, box.max.x, box.max.y})));
+  json.add("box", numbers_json(std::array{box.min.x, box.min.y, box.max.x, box.max.y}));
   json.add("robot", robot_text(*body.robot), "state_size", std::uint64_t{state_size(*body.robot)});
   json.add("clearance", *body.clearance);
   add_outline(json, *body.robot);
-  json.add_json("start", json_list(std::span<const double>(outline.start)));
-  json.add_json("goal", json_list(std::span<const double>(outline.goal)));
-  json.add("asks_roadmap", asks_roadmap);
+  json.add("start", numbers_json(outline.start), "goal", numbers_json(outline.goal), "asks_roadmap", asks_roadmap);
   json.add_json("planners", planners_json(world, body, asks_roadmap));
   json.add("budget_ms", 1e3 * limits.budget_s, "changed", world.is_changed());
   const bool is_writable = limits.writable && world.why_fixed().empty();
@@ -336,24 +321,18 @@ class PathService {
     const auto place_told = [&](const PathPlace& place) {
       execution.check();
       const double clearance = world_.clearance_at(place.state.used(), execution, other ? &*other : nullptr);
-      JsonObject told;
-      told.add("along", place.along);
-      told.add_json("at", json_list(place.state.used()));
-      told.add_or_null("clearance", std::isfinite(clearance), clearance);
-      return told.closed();
+      return json_object("along", place.along, "at", numbers_json(place.state.used()), "clearance", clearance);
     };
-    JsonObject json;
-    json.add("length", kept.way.length);
-    json.add_or_null("min_clearance", std::isfinite(kept.way.min_clearance), kept.way.min_clearance);
-    json.add_json("places", json_list_of(places_along(way, count, execution), ",", place_told));
-    return {.body = json.closed() + "\n"};
+    const JsonText places{json_list_of(places_along(way, count, execution), ",", place_told)};  // infinity is null
+    return {.body = json_object("length", kept.way.length, "min_clearance", kept.way.min_clearance, "places", places) +
+                    "\n"};
   }
   HttpResponse sweep(const KeptPath& kept, const HttpRequest& request, const Execution& execution) const {
     const SweptBodies bodies = swept_bodies(kept.way, kept.curve, view_of(request), execution);
     JsonObject json;
     add_outline(json, kept.way.problem.robot);
-    json.add("apart", bodies.apart);
-    json.add_json("places", json_list_of(bodies.places, ",", [](const PathState& at) { return json_list(at.used()); }));
+    const auto place_told = [](const PathState& at) { return json_list(at.used()); };
+    json.add("apart", bodies.apart, "places", JsonText{json_list_of(bodies.places, ",", place_told)});
     return {.body = json.closed() + "\n"};
   }
 
@@ -600,7 +579,10 @@ class WritableService : public HttpService {
     check_token(request);
     const Deadline deadline(limits_.budget_s, limits_.memory_bytes, &gone);
     const Execution execution{.threads = limits_.threads, .deadline = &deadline};
-    return update(request, execution);
+    const SceneChange wanted = read_scene_change(request.body, execution);
+    HttpResponse said;
+    if (changing_.unless_busy([&] { said = change(wanted, execution); })) return said;
+    return busy_response("somebody else changes the world now; try again");
   }
   void prepare(const SignalFlag& gone) override { (*now())->service.prepare(gone); }
 
@@ -618,12 +600,6 @@ class WritableService : public HttpService {
     if (token_.empty() || is_same_secret(request.authorization, "Bearer " + token_)) return;
     throw HttpError(request.authorization.empty() ? 401 : 403, "token", "Authorization",
                     "who changes this world must send 'Bearer TOKEN', the token that the service was started with");
-  }
-  HttpResponse update(const HttpRequest& request, const Execution& execution) {
-    const SceneChange wanted = read_scene_change(request.body, execution);
-    HttpResponse said;
-    if (changing_.unless_busy([&] { said = change(wanted, execution); })) return said;
-    return busy_response("somebody else changes the world now; try again");
   }
   HttpResponse change(const SceneChange& wanted, const Execution& execution) {
     const Versions::Lease held = now();

@@ -9,8 +9,10 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "apps/serve/api/route.hpp"
 #include "apps/serve/api/served_world.hpp"
 #include "apps/serve/http/http_server.hpp"
 #include "core/base/solution.hpp"
@@ -59,6 +61,11 @@ class RunningQuestions {
   };
   Guarded<std::map<std::string, Question>> questions_;
 };
+
+/// What is asked about route graphs of the served world (docs/service.md): built, opened, judged edge by edge, saved as
+/// Nav2 loads them. The graph itself is the client's. place: one that is_of_graphs() knows. Throws HttpError,
+/// UsageError, InputError, Stopped.
+HttpResponse answer_of_graphs(const ServedWorld& world, Place place, std::string_view body, const Execution& execution);
 
 /// What a service may spend on its clients.
 struct ServiceLimits {

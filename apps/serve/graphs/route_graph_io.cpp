@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/serve/graphs/route_graph_io.hpp"
-
+// Route graphs as JSON, between page and service, and as files of Nav2.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,10 +10,10 @@
 #include <map>
 
 #include "apps/serve/graphs/json_body_io.hpp"
+#include "apps/serve/graphs/route_graph.hpp"
 #include "apps/serve/http/http_message.hpp"
 #include "core/base/types.hpp"
 #include "core/plane/se2.hpp"
-#include "scenes/text/json_text.hpp"
 
 namespace warren::serve {
 namespace {
@@ -45,8 +44,7 @@ std::string verdict_json(const EdgeVerdict& verdict) {
 
 std::string node_json(const RouteNode& node) {
   JsonObject json;
-  json.add("id", node.id);
-  json.add_json("at", json_list(std::span<const double>(std::array{node.at.x, node.at.y})));
+  json.add("id", node.id, "at", numbers_json(std::array{node.at.x, node.at.y}));
   if (node.theta) json.add("theta", *node.theta);
   if (node.more != "{}") json.add("more", std::string_view(node.more));
   return json.closed();
@@ -173,55 +171,44 @@ class Properties {
   OrderedJson json_;
 };
 
-class Reader {
- public:
-  void take(const OrderedJson& feature, std::size_t number) {
-    const std::string where = fmt::format("feature {}", number + 1);
-    const OrderedJson* geometry = feature.is_object() ? member(feature, "geometry") : nullptr;
-    if (geometry == nullptr || !geometry->is_object()) refuse_json(where, "a feature with a geometry");
-    const OrderedJson* type = member(*geometry, "type");
-    if (type != nullptr && *type == "Point") {
-      take_node(feature, *geometry, where);
-    } else if (type != nullptr && (*type == "MultiLineString" || *type == "LineString")) {
-      take_edge(feature, where);
-    } else {
-      ++graph.left_out;
-    }
+/// places: of the graph's nodes, by their ids.
+void take_feature(RouteGraph& graph, std::map<std::uint32_t, std::size_t>& places, const OrderedJson& feature,
+                  const std::string& where) {
+  const OrderedJson* geometry = feature.is_object() ? member(feature, "geometry") : nullptr;
+  if (geometry == nullptr || !geometry->is_object()) refuse_json(where, "a feature with a geometry");
+  const OrderedJson* type = member(*geometry, "type");
+  const bool is_node = type != nullptr && *type == "Point";
+  const bool is_edge = type != nullptr && (*type == "MultiLineString" || *type == "LineString");
+  if (!is_node && !is_edge) {
+    ++graph.left_out;
+    return;
   }
-  RouteGraph graph;
-
- private:
-  void take_node(const OrderedJson& feature, const OrderedJson& geometry, const std::string& where) {
-    Properties properties(feature, where);
-    RouteNode node{.id = properties.id("id")};
-    const OrderedJson* at = member(geometry, "coordinates");
-    if (at == nullptr || !at->is_array() || at->size() < 2) refuse_json(where, "coordinates x, y");
-    node.at = {finite_number((*at)[0], where + ": x"), finite_number((*at)[1], where + ": y")};
-    const std::string frame = properties.take("frame", text_in).value_or("map");
-    if (graph.nodes.empty()) graph.frame = frame;
-    if (frame != graph.frame) refuse_json(where + ": frame", fmt::format("{}, as nodes before have it", graph.frame));
-    node.theta = properties.heading();
-    node.more = properties.rest();
-    const auto [place, is_new] = places_.emplace(node.id, graph.nodes.size());
-    if (is_new) {
-      graph.nodes.push_back(std::move(node));
-    } else {  // to Nav2 the last of them is the one that edges lead to
-      graph.nodes[place->second] = std::move(node);
-      ++graph.left_out;
-    }
+  Properties properties(feature, where);
+  if (is_edge) {
+    graph.edges.push_back({.id = properties.id("id"),
+                           .from = properties.id("startid"),
+                           .to = properties.id("endid"),
+                           .cost = properties.take("cost", finite_number),
+                           .more = properties.rest()});
+    return;
   }
-  void take_edge(const OrderedJson& feature, const std::string& where) {
-    Properties properties(feature, where);
-    RouteEdge edge{.id = properties.id("id")};
-    edge.from = properties.id("startid");
-    edge.to = properties.id("endid");
-    edge.cost = properties.take("cost", finite_number);
-    edge.more = properties.rest();
-    graph.edges.push_back(std::move(edge));
+  RouteNode node{.id = properties.id("id")};
+  const OrderedJson* at = member(*geometry, "coordinates");
+  if (at == nullptr || !at->is_array() || at->size() < 2) refuse_json(where, "coordinates x, y");
+  node.at = {finite_number((*at)[0], where + ": x"), finite_number((*at)[1], where + ": y")};
+  const std::string frame = properties.take("frame", text_in).value_or("map");
+  if (graph.nodes.empty()) graph.frame = frame;
+  if (frame != graph.frame) refuse_json(where + ": frame", fmt::format("{}, as nodes before have it", graph.frame));
+  node.theta = properties.heading();
+  node.more = properties.rest();
+  const auto [place, is_new] = places.emplace(node.id, graph.nodes.size());
+  if (is_new) {
+    graph.nodes.push_back(std::move(node));
+  } else {  // to Nav2 the last of them is the one that edges lead to
+    graph.nodes[place->second] = std::move(node);
+    ++graph.left_out;
   }
-
-  std::map<std::uint32_t, std::size_t> places_;  // of nodes, by their ids
-};
+}
 
 /// What `more` holds, to stand in an object after other members.
 void append_members(std::string& text, std::string_view more) {
@@ -310,15 +297,16 @@ RouteGraph read_nav2_graph(std::string_view geojson, const Execution& execution)
   if (!file.contains("features"))
     refuse_json("body", "a FeatureCollection of GeoJSON, as Nav2's route server loads it");
   const OrderedJson& features = list_of(file["features"], "features", most_route_nodes + most_route_edges);
-  Reader reader;
+  RouteGraph graph;
+  std::map<std::uint32_t, std::size_t> places;
   for (std::size_t i = 0; i < features.size(); ++i) {
     execution.check();
-    reader.take(features[i], i);
+    take_feature(graph, places, features[i], fmt::format("feature {}", i + 1));
   }
   file.erase("features");
   file.erase("type");
-  reader.graph.more = file.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
-  return std::move(reader.graph);
+  graph.more = file.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
+  return graph;
 }
 
 std::string nav2_graph_text(const RouteGraph& graph, const std::vector<RouteEnds>& ends, const Execution& execution) {

@@ -7,15 +7,13 @@
 #include <cctype>
 #include <charconv>
 
-#include "scenes/text/json_text.hpp"
 #include "scenes/text/scene_text.hpp"
 
 namespace warren::serve {
 
 HttpResponse error_response(const HttpError& error) {
-  JsonObject json;
-  json.add_json("error", json_object("code", error.code, "where", error.where, "message", error.what()));
-  return {.status = error.status, .body = json.closed() + "\n"};
+  const JsonText said{json_object("code", error.code, "where", error.where, "message", error.what())};
+  return {.status = error.status, .body = json_object("error", said) + "\n"};
 }
 
 HttpResponse busy_response(std::string_view message) {

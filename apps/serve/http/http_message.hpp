@@ -5,12 +5,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "scenes/text/json_text.hpp"
 
 namespace warren::serve {
 
@@ -90,6 +92,13 @@ void check_names(const HttpRequest& request, const HttpNames& names);
 
 /// A path below that of a public address, as proxies send it that do not take that away, becomes one of the service.
 void take_public_path(std::string& path, const HttpNames& names);
+
+/// JSON already: a value of json_object() that is a list or an object.
+struct JsonText {
+  std::string text;
+};
+inline std::string_view json_of(const JsonText& json) { return json.text; }
+inline JsonText numbers_json(std::span<const double> numbers) { return {json_list(numbers)}; }
 
 inline constexpr std::size_t deepest_json = 8;
 

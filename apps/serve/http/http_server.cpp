@@ -218,20 +218,18 @@ class Connections : public HttpServer {
   bool is_loopback() const override { return names_.is_loopback; }
   void run(const SignalFlag& stop) override {
     for (Tcp::acceptor& acceptor : acceptors_) accept(acceptor);
-    crew_.offer([this] { prepare(); });
+    crew_.offer([this]() noexcept {
+      try {
+        service_.prepare(ended_);
+      } catch (...) {  // NOLINT(bugprone-empty-catch): who asks meets it again
+      }
+    });
     look(stop);
     io_.run();
     crew_.end();
   }
 
  private:
-  void prepare() noexcept {
-    try {
-      service_.prepare(ended_);
-    } catch (...) {  // NOLINT(bugprone-empty-catch): who asks meets it again
-    }
-  }
-
   // Connections come.
   void accept(Tcp::acceptor& acceptor) {
     acceptor.async_accept([this, &acceptor](const Code& code, Tcp::socket socket) {
@@ -396,12 +394,6 @@ class Connections : public HttpServer {
     c.job = nullptr;
     write(c, busy_response("too many requests wait; try again"));
   }
-  /// Whoever has gone wants no answer, whatever was sent before that.
-  void leave(Connection& c) {
-    if (c.closed || c.stage != Stage::work || !has_gone(c.socket)) return;
-    ++figures_.abandoned;
-    close(c);
-  }
   void finish(std::uint64_t number) {
     const auto found = jobs_.find(number);
     const std::unique_ptr<Job> job = std::move(found->second);
@@ -473,7 +465,11 @@ class Connections : public HttpServer {
     each([this, now](Connection& c) {
       if (!c.closed && now >= c.end) end_stage(c);
     });
-    each([this](Connection& c) { leave(c); });
+    each([this](Connection& c) {  // whoever has gone wants no answer, whatever was sent before that
+      if (c.closed || c.stage != Stage::work || !has_gone(c.socket)) return;
+      ++figures_.abandoned;
+      close(c);
+    });
     if (ending_ == never) {
       for (Tcp::acceptor* acceptor : std::exchange(idle_acceptors_, {})) accept(*acceptor);
     }

@@ -15,17 +15,12 @@ std::string_view type_of(std::string_view name) {
 
 using Files = std::map<std::string_view, ServedFile>;
 
-void add_files(Files& files, std::span<const EmbeddedFile> embedded) {
-  for (const EmbeddedFile& file : embedded) {
-    files[file.name] = {type_of(file.name), file.bytes, file.sha256.substr(0, 16)};
-  }
-}
-
 Files all_files() {
   Files files;
 #ifdef WARREN_LEAFLET
-  add_files(files, service_page_files());
-  add_files(files, leaflet_files());
+  for (const std::span<const EmbeddedFile> folder : {service_page_files(), leaflet_files()}) {
+    for (const auto& file : folder) files[file.name] = {type_of(file.name), file.bytes, file.sha256.substr(0, 16)};
+  }
 #else
   files["index.html"] = {"text/plain; charset=utf-8",
                          "This program was built without Leaflet (Debian: libjs-leaflet), so it shows no page. "

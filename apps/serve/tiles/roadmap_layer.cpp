@@ -94,10 +94,7 @@ SearchState searched(const PlannedRoadmap<Vec2>& roadmap, const Execution& execu
 }  // namespace
 
 RoadmapLayer::RoadmapLayer(const RoadmapParts& parts, const Execution& execution) : PlacedRoadmap(parts, execution) {
-  rank_components(parts.component, execution);
-}
-
-void RoadmapLayer::rank_components(std::span<const VertexId> component, const Execution& execution) {
+  const std::span<const VertexId> component = parts.component;
   constexpr auto others = static_cast<std::uint8_t>(component_inks.size() - 1);
   const std::size_t count = component.size();
   const auto for_each = [&](const auto& visit) {
@@ -126,16 +123,6 @@ void RoadmapLayer::rank_components(std::span<const VertexId> component, const Ex
   for_each([&](VertexId v) { ++of_ink_[ranks_[v] = ranks_[component[v]]]; });
 }
 
-/// One more than are drawn where there are too many.
-std::vector<PlacedRoadmap::Edge> RoadmapLayer::edges_in(const Box& box, const Execution& execution) const {
-  std::vector<Edge> edges;
-  for_each_edge_near(box, execution, [&](Edge edge) {
-    if (box.meets(box_of({at(edge.from), at(edge.to)}))) edges.push_back(edge);
-    return edges.size() <= most_drawn_edges;
-  });
-  return edges;
-}
-
 std::string RoadmapLayer::draw(const Box& box, double pixel, RoadmapInk ink, const Execution& execution) const {
   if (ink == RoadmapInk::one) return draw(box, pixel, std::span(component_inks).first(1), {}, execution);
   return draw(box, pixel, component_inks, ranks_, execution);
@@ -146,7 +133,11 @@ std::string RoadmapLayer::draw(const Box& box, double pixel, std::span<const Rgb
   const OnTile on_tile{box, pixel};
   InkTile tile(inks, execution);
   const Box reach = box.grown(milestone_pixels * pixel);
-  const std::vector<Edge> edges = edges_in(reach, execution);
+  std::vector<Edge> edges;  // one more than are drawn where there are too many
+  for_each_edge_near(reach, execution, [&](Edge edge) {
+    if (reach.meets(box_of({at(edge.from), at(edge.to)}))) edges.push_back(edge);
+    return edges.size() <= most_drawn_edges;
+  });
   const bool is_far = edges.size() > most_drawn_edges;
   for (std::size_t i = 0; i < edges.size() && !is_far; ++i) {
     if (i % 64 == 0) execution.check();
@@ -240,16 +231,6 @@ void PlacedRoadmap::file_milestones(const Execution& execution) {
   });
 }
 
-template <class Visit>
-void PlacedRoadmap::for_each_edge(const Execution& execution, const Visit& visit) const {
-  for (VertexId v = 0; v < parts_.vertex_count(); ++v) {
-    if (v % 1024 == 0) execution.check();
-    for (std::size_t end = parts_.first[v]; end < parts_.first[v + 1]; ++end) {
-      if (is_edge(v, end)) visit(Edge{v, parts_.to[end]});
-    }
-  }
-}
-
 void PlacedRoadmap::part_long_edges(const Execution& execution) {
   constexpr int least_exponent = -1074;
   constexpr int most_exponent = 1024;
@@ -260,7 +241,13 @@ void PlacedRoadmap::part_long_edges(const Execution& execution) {
     if (how_long > 0.0) std::frexp(how_long, &exponent);  // of 0 it says 0, the exponent of 0.5
     return static_cast<std::size_t>(std::clamp(exponent, least_exponent, most_exponent) - least_exponent);
   };
-  for_each_edge(execution, [&](Edge edge) {
+  const auto for_each_edge = [&](const auto& visit) {
+    for (VertexId v = 0; v < parts_.vertex_count(); ++v) {
+      if (v % 1024 == 0) execution.check();
+      for_each_edge_of(v, [&](Edge edge) { return visit(edge), true; });
+    }
+  };
+  for_each_edge([&](Edge edge) {
     ++free_edges_;
     ++of_bin[bin(edge)];
   });
@@ -270,7 +257,7 @@ void PlacedRoadmap::part_long_edges(const Execution& execution) {
   while (first_long > 1 && longer + of_bin[first_long - 1] <= most_long) longer += of_bin[--first_long];
   execution.reserve(longer * sizeof(Edge));
   long_edges_.reserve(longer);
-  for_each_edge(execution, [&](Edge edge) {
+  for_each_edge([&](Edge edge) {
     if (bin(edge) >= first_long) {
       long_edges_.push_back(edge);
     } else {

@@ -58,26 +58,26 @@ class PlacedRoadmap {
       if (!visit(long_edges_[i])) return;
     }
     for_each_milestone(box.grown(reach_), execution, [&](VertexId v) {
-      for (std::size_t end = parts_.first[v]; end < parts_.first[v + 1]; ++end) {
-        if (!is_edge(v, end)) continue;
-        const Edge edge{v, parts_.to[end]};
-        if (length(edge) <= reach_ && !visit(edge)) return false;
-      }
-      return true;
+      return for_each_edge_of(v, [&](Edge edge) { return length(edge) > reach_ || visit(edge); });
     });
   }
 
  private:
-  bool is_edge(VertexId v, std::size_t end) const {
-    return (parts_.directed || v < parts_.to[end]) && parts_.state_of_end(end) == EdgeState::free;
+  /// Visits the free edges that v has, each of one end alone, until visit says false; true: it never did.
+  template <class Visit>
+  bool for_each_edge_of(VertexId v, const Visit& visit) const {
+    for (std::size_t end = parts_.first[v]; end < parts_.first[v + 1]; ++end) {
+      const Edge edge{v, parts_.to[end]};
+      if (!parts_.directed && v >= edge.to) continue;
+      if (parts_.state_of_end(end) == EdgeState::free && !visit(edge)) return false;
+    }
+    return true;
   }
   double length(Edge edge) const;
   std::size_t cell_at(double share) const;
   std::size_t column(double x) const { return cell_at((x - box_.min.x) / std::max(box_.width(), 1e-300)); }
   std::size_t row(double y) const { return cell_at((y - box_.min.y) / std::max(box_.height(), 1e-300)); }
   void file_milestones(const Execution& execution);
-  template <class Visit>
-  void for_each_edge(const Execution& execution, const Visit& visit) const;
   void part_long_edges(const Execution& execution);
 
   RoadmapParts parts_;
@@ -122,9 +122,6 @@ class RoadmapLayer : public PlacedRoadmap {
   std::uint64_t small_components() const { return small_components_; }
 
  private:
-  void rank_components(std::span<const VertexId> component, const Execution& execution);
-  std::vector<Edge> edges_in(const Box& box, const Execution& execution) const;
-
   std::vector<std::uint8_t> ranks_;
   std::array<std::uint64_t, component_inks.size()> of_ink_ = {};
   std::uint64_t small_components_ = 0;

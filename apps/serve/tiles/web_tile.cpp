@@ -54,6 +54,8 @@ Box TileGrid::box_of(const TilePlace& tile) const {
   return {{upper_left.x, upper_left.y - side}, {upper_left.x + side, upper_left.y}};
 }
 
+OnTile TileGrid::on(const TilePlace& tile) const { return {box_of(tile), pixel(tile.zoom)}; }
+
 std::optional<TilePlace> TileGrid::tile_at(std::string_view zoom, std::string_view x, std::string_view y) const {
   const auto z = number_below(levels, zoom);
   if (!z) return std::nullopt;

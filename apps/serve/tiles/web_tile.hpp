@@ -27,6 +27,8 @@ struct TilePlace {
   std::uint32_t y = 0;
 };
 
+struct OnTile;
+
 struct TileGrid {
   static constexpr unsigned pixels = 512;
 
@@ -37,6 +39,7 @@ struct TileGrid {
   /// Side of a pixel.
   double pixel(unsigned zoom) const { return span / (static_cast<double>(pixels) * static_cast<double>(1U << zoom)); }
   Box box_of(const TilePlace& tile) const;
+  OnTile on(const TilePlace& tile) const;
   /// The tile whose numbers, in digits, these are; nothing where there is none.
   std::optional<TilePlace> tile_at(std::string_view zoom, std::string_view x, std::string_view y) const;
 };
@@ -46,6 +49,11 @@ struct OnTile {
   Box box;
   double pixel;
   Vec2 operator()(Vec2 p) const { return {(p.x - box.min.x) / pixel, (box.max.y - p.y) / pixel}; }
+  /// In the world, of the i-th pixel, row by row.
+  Vec2 middle_of(std::size_t i) const {
+    const Vec2 at{static_cast<double>(i % TileGrid::pixels) + 0.5, static_cast<double>(i / TileGrid::pixels) + 0.5};
+    return {box.min.x + at.x * pixel, box.max.y - at.y * pixel};
+  }
 };
 
 /// Cells of a grid on tiles: a pixel has 2^level cells a side, or a cell 2^-level pixels, so that pixels and cells
@@ -116,10 +124,9 @@ class ShadePyramid {
   ShadePyramid(std::uint32_t width, std::uint32_t height, const Shade& shade, const Execution& execution) {
     halve(width, height, shade, execution);
     while (planes_.back().width > 1 || planes_.back().height > 1) {
-      const std::size_t below = planes_.size();
-      halve(
-          planes_.back().width, planes_.back().height,
-          [&](std::uint32_t x, std::uint32_t y) { return at(static_cast<unsigned>(below), x, y); }, execution);
+      const auto below = static_cast<unsigned>(planes_.size());
+      const auto shade_below = [&](std::uint32_t x, std::uint32_t y) { return at(below, x, y); };
+      halve(planes_.back().width, planes_.back().height, shade_below, execution);
     }
   }
 
@@ -142,18 +149,16 @@ class ShadePyramid {
     Plane plane{width / 2 + width % 2, height / 2 + height % 2, {}};
     execution.reserve(std::size_t{plane.width} * plane.height);
     plane.shades.resize(std::size_t{plane.width} * plane.height);
-    for_chunks(plane.height, 1 + (1U << 18U) / plane.width, execution, [&](Range rows) {
-      for (std::size_t y = rows.first; y < rows.last; ++y) {
-        for (std::uint32_t x = 0; x < plane.width; ++x) {
-          const auto row = static_cast<std::uint32_t>(2 * y);
-          const bool right = 2 * x + 1 < width;
-          const bool above = row + 1 < height;
-          unsigned sum = shade(2 * x, row) + 2U;
-          if (right) sum += shade(2 * x + 1, row);
-          if (above) sum += shade(2 * x, row + 1);
-          if (right && above) sum += shade(2 * x + 1, row + 1);
-          plane.shades[y * plane.width + x] = static_cast<std::uint8_t>(std::min(255U, sum / 4));
-        }
+    for_each_index(plane.height, 1 + (1U << 18U) / plane.width, execution, [&](std::size_t y) {
+      const auto row = static_cast<std::uint32_t>(2 * y);
+      const bool above = row + 1 < height;
+      for (std::uint32_t x = 0; x < plane.width; ++x) {
+        const bool right = 2 * x + 1 < width;
+        unsigned sum = shade(2 * x, row) + 2U;
+        if (right) sum += shade(2 * x + 1, row);
+        if (above) sum += shade(2 * x, row + 1);
+        if (right && above) sum += shade(2 * x + 1, row + 1);
+        plane.shades[y * plane.width + x] = static_cast<std::uint8_t>(std::min(255U, sum / 4));
       }
     });
     planes_.push_back(std::move(plane));

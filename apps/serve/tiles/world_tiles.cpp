@@ -184,12 +184,12 @@ class MapTiles : public WorldTiles {
 
   std::string draw(const TilePlace& place, const Execution& execution) const override {
     PixelTile tile;
-    const double pixel = grid().pixel(place.zoom);
-    const Box box = grid().box_of(place);
-    const Vec2 first = map_point(map_, {box.min.x + 0.5 * pixel, box.max.y - 0.5 * pixel});
-    const Vec2 right = map_point(map_, {box.min.x + 1.5 * pixel, box.max.y - 0.5 * pixel}) - first;
-    const Vec2 down = map_point(map_, {box.min.x + 0.5 * pixel, box.max.y - 1.5 * pixel}) - first;
-    const unsigned level = level_of(pixel / map_.cell);
+    const OnTile on_tile = grid().on(place);
+    const Vec2 first = map_point(map_, on_tile.middle_of(0));
+    const Vec2 right = map_point(map_, on_tile.middle_of(1)) - first;
+    const Vec2 down = map_point(map_, on_tile.middle_of(TileGrid::pixels)) - first;
+    unsigned level = 0;  // the last one whose squares are no larger than a pixel
+    while (level + 1 < far_.levels() && static_cast<double>(2U << level) <= on_tile.pixel / map_.cell) ++level;
     for (unsigned y = 0; y < TileGrid::pixels; ++y) {
       if (y % 64 == 0) execution.check();
       for (unsigned x = 0; x < TileGrid::pixels; ++x) {
@@ -212,12 +212,6 @@ class MapTiles : public WorldTiles {
   std::uint8_t shade_of(std::uint32_t x, std::uint32_t y) const {
     if (!map_.blocked.test(x, y)) return 0;
     return !map_.unknown.empty() && map_.unknown.test(x, y) ? unknown_shade : blocked_shade;
-  }
-  /// The last one whose squares are no larger than a pixel.
-  unsigned level_of(double cells) const {
-    unsigned level = 0;
-    while (level + 1 < far_.levels() && static_cast<double>(2U << level) <= cells) ++level;
-    return level;
   }
   std::uint8_t shade_at(Vec2 in_cells, unsigned level) const {
     if (!(in_cells.x >= 0.0 && in_cells.y >= 0.0 && in_cells.x < map_.width() && in_cells.y < map_.height())) return 0;
@@ -326,7 +320,7 @@ class ShapeTiles : public WorldTiles {
 
   std::string draw(const TilePlace& place, const Execution& execution) const override {
     Image image(TileGrid::pixels, TileGrid::pixels, colors::paper, execution);
-    const OnTile on_tile{grid().box_of(place), grid().pixel(place.zoom)};
+    const OnTile on_tile = grid().on(place);
     const auto draw_side = [&](Vec2 a, Vec2 b) {
       image.draw_line(on_tile(a), on_tile(b), outline_pixels, colors::outline);
     };
@@ -365,32 +359,20 @@ class ShapeTiles : public WorldTiles {
                   [&](std::uint32_t i) { return least = std::min(least, distance(place, sides[tree.order()[i]])); });
       return least;
     };
-    const auto leave_out_here = [this, room](PixelTile& tile, const Box& box, double pixel, const Execution& asked) {
-      leave_out(room, tile, box, pixel, asked);
+    auto leave_out = [this, room](PixelTile& tile, const OnTile& on_tile, const Execution& asked) {
+      Mask inside(TileGrid::pixels, TileGrid::pixels, asked);  // how much of each pixel polygons cover
+      for (const std::uint32_t i : shapes_in(on_tile.box, asked)) {
+        if (i < scene_.walls.size()) continue;
+        inside.fill(outline_on(on_tile, scene_.polygons[i - scene_.walls.size()]), 1.0, asked);
+      }
+      for (std::size_t i = 0; i < tile.bytes.size(); ++i) {
+        if (!room.contains(on_tile.middle_of(i)) || inside.pixels()[i] >= 128) tile.bytes[i] = 0;
+      }
     };
-    return {std::move(at), true, leave_out_here};
+    return {std::move(at), true, std::move(leave_out)};
   }
 
  private:
-  /// What lies inside of polygons or outside of the room.
-  void leave_out(const Box& room, PixelTile& tile, const Box& box, double pixel, const Execution& execution) const {
-    const Mask inside = insides(box, pixel, execution);
-    for (std::size_t i = 0; i < tile.bytes.size(); ++i) {
-      const Vec2 middle{static_cast<double>(i % TileGrid::pixels) + 0.5,
-                        static_cast<double>(i / TileGrid::pixels) + 0.5};
-      const bool is_outside = !room.contains({box.min.x + middle.x * pixel, box.max.y - middle.y * pixel});
-      if (is_outside || inside.pixels()[i] >= 128) tile.bytes[i] = 0;
-    }
-  }
-  /// How much of each pixel lies inside of polygons. Throws Stopped.
-  Mask insides(const Box& box, double pixel, const Execution& execution) const {
-    Mask mask(TileGrid::pixels, TileGrid::pixels, execution);
-    for (const std::uint32_t i : shapes_in(box, execution)) {
-      if (i < scene_.walls.size()) continue;
-      mask.fill(outline_on({box, pixel}, scene_.polygons[i - scene_.walls.size()]), 1.0, execution);
-    }
-    return mask;
-  }
   /// Walls and then polygons, each in the order of the world.
   std::vector<std::uint32_t> shapes_in(const Box& box, const Execution& execution) const {
     std::vector<std::uint32_t> shapes;
@@ -416,12 +398,10 @@ constexpr std::size_t rows_a_chunk = 16;
 Steps steps_of(const PlaceDistances& distances, const Box& box, const Execution& execution) {
   constexpr std::size_t squares = 61;  // of a side: no divisor of what worlds are made of
   std::vector<double> found(squares * squares);
-  for_chunks(squares, 1, execution, [&](Range rows) {
-    for (std::size_t i = rows.first * squares; i < rows.last * squares; ++i) {
-      const double x = (static_cast<double>(i % squares) + 0.5) / squares;
-      const double y = (static_cast<double>(i / squares) + 0.5) / squares;
-      found[i] = distances.at({box.min.x + x * box.width(), box.min.y + y * box.height()});
-    }
+  for_each_index(found.size(), squares, execution, [&](std::size_t i) {
+    const double x = (static_cast<double>(i % squares) + 0.5) / squares;
+    const double y = (static_cast<double>(i / squares) + 0.5) / squares;
+    found[i] = distances.at({box.min.x + x * box.width(), box.min.y + y * box.height()});
   });
   std::erase_if(found, [](double d) { return !std::isfinite(d); });
   if (found.empty()) return {};
@@ -446,40 +426,27 @@ std::uint8_t ClearanceLayer::ink_of(double distance) const {
 
 std::string ClearanceLayer::draw(const TilePlace& place, const Execution& execution) const {
   PixelTile tile;
-  const Box box = tiles_.grid().box_of(place);
-  const double pixel = tiles_.grid().pixel(place.zoom);
-  if (pixel <= tiles_.largest_pixel_of_distances()) {
+  const OnTile on_tile = tiles_.grid().on(place);
+  if (on_tile.pixel <= tiles_.largest_pixel_of_distances()) {
     if (distances_.are_dear) {
-      draw_between(tile, box, pixel, execution);
+      draw_between(tile, on_tile, execution);
     } else {
-      draw_each(tile, box, pixel, execution);
+      for_each_index(tile.bytes.size(), rows_a_chunk * row_pixels, execution,
+                     [&](std::size_t i) { tile.bytes[i] = ink_of(distances_.at(on_tile.middle_of(i))); });
     }
-    if (distances_.leave_out) distances_.leave_out(tile, box, pixel, execution);
+    if (distances_.leave_out) distances_.leave_out(tile, on_tile, execution);
   }
   return png_of_inks(tile, step_inks_and(too_near_ink), std::array{step_opacity}, execution);
 }
 
-void ClearanceLayer::draw_each(PixelTile& tile, const Box& box, double pixel, const Execution& execution) const {
-  for_chunks(row_pixels, rows_a_chunk, execution, [&](Range rows) {
-    for (std::size_t y = rows.first; y < rows.last; ++y) {
-      for (std::size_t x = 0; x < row_pixels; ++x) {
-        const Vec2 middle{static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5};
-        tile.at(x, y) = ink_of(distances_.at({box.min.x + middle.x * pixel, box.max.y - middle.y * pixel}));
-      }
-    }
-  });
-}
-
 /// Distances change by no more than the way, so between places they are off by less than that between these.
-void ClearanceLayer::draw_between(PixelTile& tile, const Box& box, double pixel, const Execution& execution) const {
+void ClearanceLayer::draw_between(PixelTile& tile, const OnTile& on_tile, const Execution& execution) const {
   constexpr std::size_t places = row_pixels / stride + 1;  // of a row, both ends included
   std::vector<double> found(places * places);
-  const double way = static_cast<double>(stride) * pixel;
-  for_chunks(places, 1, execution, [&](Range rows) {
-    for (std::size_t i = rows.first * places; i < rows.last * places; ++i) {
-      found[i] = distances_.at(
-          {box.min.x + static_cast<double>(i % places) * way, box.max.y - static_cast<double>(i / places) * way});
-    }
+  const double way = static_cast<double>(stride) * on_tile.pixel;
+  for_each_index(found.size(), places, execution, [&](std::size_t i) {
+    const Vec2 off{static_cast<double>(i % places) * way, static_cast<double>(i / places) * way};
+    found[i] = distances_.at({on_tile.box.min.x + off.x, on_tile.box.max.y - off.y});
   });
   const auto mixed = [](double a, double b, double share) { return a + share * (b - a); };
   for (std::size_t y = 0; y < row_pixels; ++y) {

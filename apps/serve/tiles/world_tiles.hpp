@@ -21,7 +21,7 @@ struct PlaceDistances {
   std::function<double(Vec2)> at;
   bool are_dear = false;  ///< is one a pixel too many?
   /// Takes out what lies inside of shapes or outside of the world; none: at() does. Throws Stopped.
-  std::function<void(PixelTile&, const Box&, double pixel, const Execution&)> leave_out = {};
+  std::function<void(PixelTile&, const OnTile&, const Execution&)> leave_out = {};
 };
 
 /// Immutable; any number of threads may draw.
@@ -60,8 +60,7 @@ class ClearanceLayer {
 
  private:
   std::uint8_t ink_of(double distance) const;
-  void draw_each(PixelTile& tile, const Box& box, double pixel, const Execution& execution) const;
-  void draw_between(PixelTile& tile, const Box& box, double pixel, const Execution& execution) const;
+  void draw_between(PixelTile& tile, const OnTile& on_tile, const Execution& execution) const;
 
   const WorldTiles& tiles_;
   PlaceDistances distances_;

@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "apps/distributed/transport.hpp"
+#include "apps/distributed/rank_protocol.hpp"
 
 namespace warren::test {
 

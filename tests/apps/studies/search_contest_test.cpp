@@ -8,8 +8,6 @@
 #include <limits>
 #include <set>
 
-#include "apps/studies/search_graph.hpp"
-
 namespace warren::studies {
 namespace {
 

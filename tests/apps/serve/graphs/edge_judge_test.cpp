@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/serve/graphs/edge_judge.hpp"
+#include "apps/serve/graphs/route_graph.hpp"
 
 #include <gtest/gtest.h>
 
