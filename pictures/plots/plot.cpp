@@ -252,7 +252,8 @@ class PlotDrawing {
 };
 
 constexpr double most_name = 300.0;      // pixels
-constexpr double room_of_remark = 96.0;  // beside the frame
+constexpr double room_of_remark = 96.0;  // beside the frame, at least
+constexpr double gap_before_remark = 10.0;
 
 /// Draws one plot from back to front.
 class BoxDrawing {
@@ -261,7 +262,7 @@ class BoxDrawing {
 
   PlotSheet sheet() {
     sheet_.begin(plot_.title, frame_, plot_.label, "", 0.0);
-    sheet_.label({frame_.max.x + 10.0, frame_.min.y - 8.0}, Anchor::start, plot_.remarks);
+    sheet_.label({frame_.max.x + gap_before_remark, frame_.min.y - 8.0}, Anchor::start, plot_.remarks);
     for (const double tick : axis_.ticks()) {
       sheet_.line({{place(tick), frame_.min.y}, {place(tick), frame_.max.y}}, faint_line);
       sheet_.label({place(tick), frame_.max.y + 17.0}, Anchor::middle, tick_on_axis(tick, plot_.label));
@@ -276,8 +277,12 @@ class BoxDrawing {
     constexpr double least = 60.0;
     constexpr double margin = 20.0;
     double widest = least;
-    for (const PlottedBox& box : plot_.boxes) widest = std::max(widest, text_width(box.name, plot_text_size));
-    return {{std::min(widest, most_name) + margin, 48.0}, {plot_size.x - room_of_remark, 366.0}};
+    double beside = room_of_remark;
+    for (const PlottedBox& box : plot_.boxes) {
+      widest = std::max(widest, text_width(box.name, plot_text_size));
+      beside = std::max(beside, gap_before_remark + text_width(box.remark, plot_text_size) + margin_of_name);
+    }
+    return {{std::min(widest, most_name) + margin, 48.0}, {plot_size.x - beside, 366.0}};
   }
   PlotAxis axis() const {
     PlotExtent extent;
@@ -292,7 +297,7 @@ class BoxDrawing {
     const PlottedBox& one = plot_.boxes[i];
     const double y = frame_.min.y + (static_cast<double>(i) + 0.5) * row_height();
     name(one.name, y);
-    sheet_.label({frame_.max.x + 10.0, y + 4.0}, Anchor::start, one.remark);
+    sheet_.label({frame_.max.x + gap_before_remark, y + 4.0}, Anchor::start, one.remark);
     if (one.figures) box(one, y, series_color(i));
   }
   /// In two lines where it needs them and the row has them, else without its middle: names often differ at their ends.

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "pictures/model/letters.hpp"
+
 namespace warren {
 namespace {
 
@@ -66,6 +68,16 @@ TEST(BoxPlot, LongNamesThatDifferAtTheirEndsAreToldApart) {
   const std::string few = box_plot_svg(plot);
   EXPECT_EQ(times_in(few, "..."), 0U);
   EXPECT_EQ(times_in(few, "neighbours 1<") + times_in(few, "neighbours 2<"), 2U);
+}
+
+TEST(BoxPlot, LongRemarksEndOnTheSheet) {
+  BoxPlot plot = boxes_with({}, false);
+  plot.boxes[1].remark = "none of 1000000";
+  const std::string text = box_plot_svg(plot);
+  const std::size_t word = text.find(">none of 1000000<");
+  ASSERT_NE(word, std::string::npos);
+  const std::size_t at = text.rfind("<text x=\"", word) + std::string_view("<text x=\"").size();
+  EXPECT_LE(std::stod(text.substr(at)) + text_width("none of 1000000", plot_text_size), plot_size.x);
 }
 
 }  // namespace
