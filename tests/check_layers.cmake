@@ -126,6 +126,8 @@ only(xml "#include <pugixml" "^(scenes/arms/[a-z0-9_]*_io[.][ch]pp$|tests/)")
 only(hulls "#include <libqhull" "^scenes/scene/convex_hull[.]cpp$")
 only(options "#include <CLI" "${above}")
 only(json "#include <nlohmann" "${above}|^apps/studies/|^apps/distributed/[a-z_]*_io[.]cpp$|^(scenes|solve|pictures|apps/serve)/[a-z]*/[a-z_]*_io[.]cpp$|^apps/serve/[a-z]*/[a-z_]*_io[.]hpp$")
+# Shards of a test program run side by side: a file has a name of its process's own.
+only(shared_names "TempDir[(][)]" "^tests/scenes/files/temporary_directory[.]hpp$")
 only(judges "#include <(gtest|gmock)/" "^tests/")
 only(stopwatches "#include <benchmark/" "^bench/")
 # The library's own bits, other ones with FMA than without: what is computed with goes through one file, tests and pictures

@@ -3,12 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <fstream>
-#include <iterator>
 
 #include "pictures/formats/surface.hpp"
 #include "pictures/plots/plot.hpp"
+#include "tests/scenes/files/temporary_directory.hpp"
 
 namespace warren {
 namespace {
@@ -46,12 +44,9 @@ PlotSheet some_plot(bool dashed) {
 }
 
 std::string bytes_of(const PlotsPage& page, const std::string& ending) {
-  const std::string file = testing::TempDir() + "plots_page_test" + ending;
-  page.write(file, "warren compare", Execution{});
-  std::ifstream in(file, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(in), {}};
-  std::remove(file.c_str());
-  return bytes;
+  const TemporaryDirectory folder;
+  page.write(folder.file("page" + ending), "warren compare", Execution{});
+  return folder.read("page" + ending);
 }
 
 std::uint32_t big_endian(const std::string& bytes, std::size_t at) {

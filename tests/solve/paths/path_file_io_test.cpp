@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <sstream>
@@ -18,19 +17,17 @@
 #include "scenes/files/read_world_io.hpp"
 #include "solve/solve.hpp"
 #include "tests/paths.hpp"
+#include "tests/scenes/files/temporary_directory.hpp"
 
 namespace warren {
 namespace {
 
 std::string written(const Answer& answer, const std::string& ending, const PathFileOptions& options,
                     PathFileAccount* account = nullptr) {
-  const std::string file = ::testing::TempDir() + "path_file_io_test" + ending;
-  const PathFileAccount made = write_path_file(answer, file, options, {});
+  const TemporaryDirectory folder;
+  const PathFileAccount made = write_path_file(answer, folder.file("path" + ending), options, {});
   if (account != nullptr) *account = made;
-  std::ifstream in(file);
-  std::stringstream text;
-  text << in.rdbuf();
-  return text.str();
+  return folder.read("path" + ending);
 }
 
 using Table = std::vector<std::vector<double>>;
