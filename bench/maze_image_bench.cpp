@@ -150,14 +150,12 @@ BENCHMARK(bm_maze_roadmap)
     ->UseRealTime();
 
 /// A PGM of the maze, in a file of its own that goes with the program.
-class MazeFile {
+class MazeFile : NotCopied {
  public:
   explicit MazeFile(const OccupancyMap& map) : path_("/tmp/warren_bench_maze_" + std::to_string(map.width()) + ".pgm") {
     write_map_pgm(map, path_, UnknownCells::black, {});
   }
   ~MazeFile() { std::remove(path_.c_str()); }
-  MazeFile(const MazeFile&) = delete;
-  MazeFile& operator=(const MazeFile&) = delete;
   const std::string& path() const { return path_; }
 
  private:

@@ -207,12 +207,10 @@ void add_choices(Drawing& drawing, const GoalRule& rule, const std::vector<std::
 }
 
 /// Views instead of the world.
-Drawing drawing_of_arm(const Scene& scene, const RobotSpec& robot, const std::vector<double>& start,
-                       const StateList& states, std::string subtitle, const Execution& execution) {
-  Path<JointState> path;
-  for (std::size_t i = 0; i < states.size(); ++i) path.push_back(joint_state(states[i]));
+Drawing drawing_of_arm(const Scene& scene, const ArmModel& model, const std::vector<double>& start,
+                       Path<JointState> path, std::string subtitle, const Execution& execution) {
   if (path.empty()) path.push_back(joint_state(start));
-  ArmViews views = arm_views(scene, arm_model_of(robot, 0.0, execution), path, execution);
+  ArmViews views = arm_views(scene, model, path, execution);
   return {.layers = std::move(views.layers),
           .stage = std::move(views.stage),
           .panels = std::move(views.panels),
@@ -273,7 +271,10 @@ Drawing drawing_of(const Scene& scene, const Answer& answer, ByProducts made, co
   const Problem& problem = answer.problem;
   const StateList& states = answer.refuted ? answer.refuted->states : answer.states;
   if (is_arm(problem.robot)) {
-    return drawing_of_arm(scene, problem.robot, problem.start, states, subtitle_of(scene, answer), execution);
+    Path<JointState> path;
+    for (std::size_t i = 0; i < states.size(); ++i) path.push_back(joint_state(states[i]));
+    return drawing_of_arm(scene, arm_model_of(problem.robot, 0.0, execution), problem.start, std::move(path),
+                          subtitle_of(scene, answer), execution);
   }
   Drawing drawing{.layers = ground_of(scene, problem.robot, problem.prices, execution),
                   .path = answer.refuted ? answer.refuted->path : answer.path,
@@ -312,7 +313,11 @@ Drawing drawing_of(const Scene& scene, const RecordedAnswer& answer, const Execu
   if (heading_rad) check_has_headings(robot);
   const std::vector<double>& start = answer.problem.start.empty() ? scene.start : answer.problem.start;
   if (is_arm(robot)) {
-    return drawing_of_arm(scene, robot, start, answer.states, subtitle_of(scene, answer), execution);
+    const ArmModel model = arm_model_of(robot, 0.0, execution);
+    if (answer.state_count() > 0) check_joints(answer, model.variables);
+    Path<JointState> path;
+    for (const std::vector<double>& state : states_of(answer)) path.push_back(joint_state(state));
+    return drawing_of_arm(scene, model, start, std::move(path), subtitle_of(scene, answer), execution);
   }
   Drawing drawing{.layers = ground_of(scene, robot, answer.problem.prices, execution),
                   .path = answer.path,

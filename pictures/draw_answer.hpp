@@ -51,7 +51,7 @@ struct Drawing {
 Drawing drawing_of(const Scene& scene, const Answer& answer, ByProducts made, const Execution& execution,
                    std::optional<double> heading_rad = {});
 
-/// The same of an answer that was read from a file: path and body. Throws InputError for states that are no arm's.
+/// The same of an answer that was read from a file: path and body. Throws InputError as check_joints() does.
 Drawing drawing_of(const Scene& scene, const RecordedAnswer& answer, const Execution& execution,
                    std::optional<double> heading_rad = {});
 

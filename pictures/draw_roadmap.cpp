@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "pictures/formats/write_picture.hpp"
 #include "pictures/layers/draw_arm.hpp"
 #include "pictures/layers/draw_bodies.hpp"
 #include "pictures/layers/draw_cells.hpp"
@@ -196,14 +195,6 @@ void draw_roadmap(const Roadmap& roadmap, const std::string& description, std::o
                                  grouped(edges.free), grouped(edges.blocked), grouped(edges.unchecked));
   picture.description = fmt::format("{}\n{}", picture.subtitle, description);
   draw(picture);
-}
-
-std::vector<std::string> write_picture(const std::string& file, const Roadmap& roadmap, const PictureOptions& options,
-                                       const std::string& description, const Execution& execution) {
-  std::vector<std::string> notes;
-  draw_roadmap(roadmap, description, options.heading, execution,
-               [&](const Picture& picture) { notes = write_picture(file, picture, options, execution); });
-  return notes;
 }
 
 }  // namespace warren

@@ -24,9 +24,4 @@ inline constexpr std::uint64_t most_drawn_edges = 900'000;
 void draw_roadmap(const Roadmap& roadmap, const std::string& description, std::optional<double> heading_rad,
                   const Execution& execution, const std::function<void(const Picture&)>& draw);
 
-/// The same in one go, in the format that the file's ending says. Returns as write_picture() of formats/ does. Throws
-/// UsageError, WriteError, Stopped.
-std::vector<std::string> write_picture(const std::string& file, const Roadmap& roadmap, const PictureOptions& options,
-                                       const std::string& description, const Execution& execution);
-
 }  // namespace warren

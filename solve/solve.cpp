@@ -284,6 +284,10 @@ std::string take_end(Question& asked, const Question& question, const Scene& sce
   const bool takes_others = rule.region || rule.tolerance;
   if ((!is_said && !takes_others) || rule.back) return {};
   std::vector<double> end = answer.state(answer.state_count() - 1);
+  if (question.rule.heading_rad && end.size() == 2) {
+    throw UsageError(fmt::format("@{}: its angle is for bodies that turn, and this path has no headings",
+                                 rule.region ? "goal_region" : "goal_tolerance"));
+  }
   const RecordedAnswer none;
   auto goals = asked_goals(is_said ? none : answer, asked.goal.empty() ? scene.goal : asked.goal, rule);
   const bool of_arm = is_arm(robot_of(scene, asked));
@@ -356,6 +360,26 @@ BoundVerdict bound_near(const Problem& problem, const RecordedAnswer& answer, do
   return is_straight ? BoundVerdict::checked : BoundVerdict::unchecked;
 }
 
+/// What passes places on its way is at least as long as the straight way over all of them and to the goal. A goal that
+/// is one of them may be where a path without one ends.
+BoundVerdict bound_over_stops(const Problem& problem, const RecordedAnswer& answer) {
+  constexpr double rounding = 1e-9;
+  const GoalRule& rule = answer.problem.rule;
+  if (*answer.lower_bound <= 0.0) return BoundVerdict::checked;
+  if (is_arm(problem.robot) || rule.visit.size() > most_judged_stops) return BoundVerdict::unchecked;
+  const Vec2 start{problem.start[0], problem.start[1]};
+  std::optional<Vec2> end = rule.back ? std::optional(start) : plane_point(problem.goal);
+  std::vector<Vec2> stops;
+  for (const std::vector<double>& place : rule.visit) {
+    const std::optional<Vec2> stop = plane_point(place);
+    if (!stop) return BoundVerdict::unchecked;
+    stops.push_back(*stop);
+    if (!rule.back && end && distance(*end, *stop) <= rounding * (1.0 + norm(*stop))) end.reset();
+  }
+  const bool is_straight = *answer.lower_bound <= straight_tour(start, stops, end) * (1.0 + rounding);
+  return is_straight ? BoundVerdict::checked : BoundVerdict::unchecked;
+}
+
 /// What an answer says of its bound follows from that.
 std::string wrong_gap(const RecordedAnswer& answer, double cost) {
   constexpr double slack = 1e-5;  // arcs are told as lines
@@ -400,9 +424,12 @@ void check_bound(Verdict& verdict, const Scene& scene, const RecordedAnswer& ans
       has_headings && (told->asked.size() < 3 || std::abs(turn_between(problem.goal[2], told->asked[2])) > rounding);
   const bool is_near = off > 0.0 || is_turned;
   if (answer.certificate && !is_near) return check_certificate(verdict, scene, answer, execution);
+  if (!rule.visit.empty()) {  // a way that passes the stops by would be shorter
+    verdict.bound = bound_over_stops(problem, answer);
+    return;
+  }
   verdict.bound = BoundVerdict::unchecked;
-  if (!problem.rule.visit.empty() || !rule.visit.empty()) return;  // a way that passes the stops by would be shorter
-  if (is_near || answer.price) {                                   // of costs the judge's search knows none
+  if (is_near || answer.price) {  // of costs the judge's search knows none
     const bool is_plane = !is_arm(problem.robot) && !rule.back && !answer.certificate;
     if (is_plane) verdict.bound = bound_near(problem, answer, off);
     if (answer.price || is_turned || !is_plane) return;

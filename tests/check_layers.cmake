@@ -99,7 +99,7 @@ function(only name pattern where)
 endfunction()
 
 set(above "^(tools|apps/python|bench|tests)/")
-set(sockets "^apps/serve/http/(http_server|beast_words)[.][ch]pp$")
+set(sockets "^apps/serve/http/(http_server[.]cpp|beast_words[.]hpp)$")
 set(texts "^(scenes|worlds|verify|solve|pictures|apps)/")
 only(tbb "#include <(oneapi/)?tbb/" "^parallel/[a-z_]*[.]cpp$")
 only(nanoflann "#include <nanoflann" "^(spatial/points/kd_tree[.]cpp$|bench/|tests/)")

@@ -31,7 +31,7 @@ std::span<const std::uint8_t> steps_in(const TileSummary& tile, const TileChain&
 
 }  // namespace
 
-TileRows band_rows(std::size_t tile_rows, unsigned rank, unsigned ranks) {
+Range band_rows(std::size_t tile_rows, unsigned rank, unsigned ranks) {
   return {tile_rows * rank / ranks, tile_rows * (rank + std::size_t{1}) / ranks};
 }
 
@@ -41,7 +41,7 @@ unsigned rank_of_row(std::size_t row, std::size_t tile_rows, unsigned ranks) {
   return rank;
 }
 
-Band::Band(const BandTask& task, TileRows own) : task_(task), grid_(task.grid()), own_(own) {}
+Band::Band(const BandTask& task, Range own) : task_(task), grid_(task.grid()), own_(own) {}
 
 std::optional<maze::RimPart> Band::make(const Execution& execution) {
   if (is_empty()) return std::nullopt;

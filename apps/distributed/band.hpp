@@ -35,7 +35,7 @@ struct BandTask {
 };
 
 /// Rows of tiles first .. last - 1 of rank r: R r / p to R (r + 1) / p.
-TileRows band_rows(std::size_t tile_rows, unsigned rank, unsigned ranks);
+Range band_rows(std::size_t tile_rows, unsigned rank, unsigned ranks);
 /// The rank that has a tile row.
 unsigned rank_of_row(std::size_t row, std::size_t tile_rows, unsigned ranks);
 
@@ -54,7 +54,7 @@ enum class WallsFor : std::uint32_t { planner, judge };
 class Band {
  public:
   /// own may be empty.
-  Band(const BandTask& task, TileRows own);
+  Band(const BandTask& task, Range own);
 
   /// Reads what a file has of the own tiles, which can be read then, or makes their trees; what these say to the rest
   /// of the maze. Nothing where there are no tiles. Throws InputError, ReadError, Stopped.
@@ -64,7 +64,7 @@ class Band {
   /// What was read of a file; nullptr where nothing was.
   const StreamedWalls* read() const { return read_.get(); }
 
-  TileRows rows() const { return own_; }
+  Range rows() const { return own_; }
   bool is_empty() const { return own_.first == own_.last; }
   Range tiles() const { return {own_.first * grid_.tile_cols, own_.last * grid_.tile_cols}; }
   const TileGrid& grid() const { return grid_; }
@@ -79,7 +79,7 @@ class Band {
  private:
   const BandTask task_;
   const TileGrid grid_;
-  const TileRows own_;
+  const Range own_;
   std::optional<SpanningMaze> maze_;     // made
   std::unique_ptr<StreamedWalls> read_;  // or read
   OverlayEnds ends_;                     // as reduce() was told

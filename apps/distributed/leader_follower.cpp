@@ -77,7 +77,7 @@ struct ReducedBand {
 };
 
 /// Those of a path that come within `reach` of rows of tiles; whatever leaves the maze is near its outermost rows.
-std::vector<NearLegs> legs_near(std::span<const Vec2> path, TileRows rows, const TileGrid& grid, double reach) {
+std::vector<NearLegs> legs_near(std::span<const Vec2> path, Range rows, const TileGrid& grid, double reach) {
   std::vector<NearLegs> runs;
   if (rows.first == rows.last) return runs;
   constexpr double far = std::numeric_limits<double>::infinity();
@@ -97,7 +97,7 @@ std::vector<NearLegs> legs_near(std::span<const Vec2> path, TileRows rows, const
 }
 
 /// Edges that a rank's tiles and the row of tiles below them have to know.
-std::vector<std::uint64_t> edges_near(std::span<const std::uint64_t> edges, TileRows rows, unsigned side_log2) {
+std::vector<std::uint64_t> edges_near(std::span<const std::uint64_t> edges, Range rows, unsigned side_log2) {
   std::vector<std::uint64_t> near;
   for (const std::uint64_t edge : edges) {
     const std::size_t row = maze::edge_row(edge) >> side_log2;

@@ -109,7 +109,7 @@ struct TraceEnd {
 
 class RoundsOfBand : public BandRounds {
  public:
-  RoundsOfBand(const TileGrid& grid, TileRows rows, const OverlayEnds& ends, std::vector<TileSummary> tiles,
+  RoundsOfBand(const TileGrid& grid, Range rows, const OverlayEnds& ends, std::vector<TileSummary> tiles,
                const Execution& execution)
       : grid_(grid),
         rows_(rows),
@@ -378,11 +378,11 @@ class RoundsOfBand : public BandRounds {
   }
 
   const TileGrid grid_;
-  const TileRows rows_;
+  const Range rows_;
   const OverlayEnds ends_;
   const Execution execution_;
   TileGrid seen_;  // the band and the rows of tiles beside it
-  TileRows seen_rows_;
+  Range seen_rows_;
   OverlayEnds kept_;             // the keys beyond the borders are start's, those that start and goal join goal's
   std::size_t start_links_ = 0;  // of kept_.goal
   std::vector<TileSummary> tiles_;
@@ -426,7 +426,7 @@ class SharedSearch {
                std::optional<SearchLack>& lack)
       : requests_(requests), rounds_(rounds), grid_(grid), execution_(execution), lack_(lack) {
     for (unsigned rank = 0; rank < requests.ranks(); ++rank) {
-      const TileRows rows = band_rows(grid.tile_rows, rank, requests.ranks());
+      const Range rows = band_rows(grid.tile_rows, rank, requests.ranks());
       if (rows.first < rows.last) ranks_.push_back(rank);
     }
     on_way_.resize(ranks_.size());
@@ -655,7 +655,7 @@ class SharedSearch {
 
 }  // namespace
 
-std::unique_ptr<BandRounds> band_rounds(const TileGrid& grid, TileRows rows, const OverlayEnds& ends,
+std::unique_ptr<BandRounds> band_rounds(const TileGrid& grid, Range rows, const OverlayEnds& ends,
                                         std::vector<TileSummary> tiles, const Execution& execution) {
   return std::make_unique<RoundsOfBand>(grid, rows, ends, std::move(tiles), execution);
 }

@@ -51,7 +51,7 @@ class BandRounds {
 };
 
 /// tiles: of the band, peeled by itself, without steps. They must not be empty.
-std::unique_ptr<BandRounds> band_rounds(const TileGrid& grid, TileRows rows, const OverlayEnds& ends,
+std::unique_ptr<BandRounds> band_rounds(const TileGrid& grid, Range rows, const OverlayEnds& ends,
                                         std::vector<TileSummary> tiles, const Execution& execution);
 
 /// What a rank would need beside what it holds, where that was more than its limit.

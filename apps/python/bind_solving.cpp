@@ -82,7 +82,7 @@ KeptAnswer solve_scene(const Scene& scene, py::dict keywords, bool keep, bool ex
   kept.made.wants_certificate = certificate.has_value();
   kept.answer = limits.run([&](const Execution& execution) {
     tools::read_asked_files(question, words, execution);
-    if (old) question.route.keep_to = states_of(recorded(*old));
+    if (old) keep_to(question.route, recorded(*old));
     Answer answer =
         solve_explained(scene, question, options, execution, keep || explain || certificate ? &kept.made : nullptr);
     const auto complete = [&] {
@@ -186,7 +186,7 @@ std::unique_ptr<Replanner> replanner_of(const Scene& scene, py::dict keywords) {
   const SolveOptions options = tools::solve_words(words);
   check_solver_options(options);
   CallLimits().run([&](const Execution& execution) { tools::read_asked_files(question, words, execution); });
-  if (old) question.route.keep_to = states_of(recorded(*old));
+  if (old) keep_to(question.route, recorded(*old));
   return std::make_unique<Replanner>(scene, std::move(question), options);
 }
 

@@ -26,7 +26,8 @@ Plot solved_plot(const ComparedProblem& problem) {
           .x_label = "seconds",
           .y_label = "per cent of the runs solved within",
           .log_x = true,
-          .from_zero = true};
+          .from_zero = true,
+          .all_y = 100.0};
 }
 
 std::string series_name(const SweepCurve& curve) {

@@ -73,8 +73,7 @@ class PlannerContest {
   void run() {
     constexpr std::size_t turns_at_once = 256;
     enter();
-    double seconds = 0.0;
-    const StageTimer timer(execution_, "compare", seconds, options_.runs * options_.contenders.size());
+    const StageTimer timer(execution_, "compare", nullptr, options_.runs * options_.contenders.size());
     take(turns_of(0));
     if (execution_.progress != nullptr) {  // the first has told who needs others
       execution_.progress->set_total(options_.contenders.size() + (options_.runs - 1) * turns_of(1).size());

@@ -211,8 +211,7 @@ class SearchContest {
   void measure() {
     std::uint64_t rounds = 0;
     for (const Entrant& entrant : entrants_) rounds = std::max(rounds, entrant.trials);
-    double seconds = 0.0;
-    const StageTimer timer(execution_, "compare", seconds, rounds);
+    const StageTimer timer(execution_, "compare", nullptr, rounds);
     for (std::uint64_t round = 0; round < rounds; ++round) {
       measure_round(round, rounds);
       execution_.advance(1);

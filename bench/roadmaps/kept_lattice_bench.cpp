@@ -18,7 +18,7 @@ namespace warren::bench {
 namespace {
 
 /// The file of a maze of so many rows and columns, which goes when the program ends. loops: in thousandths.
-class LatticeFile {
+class LatticeFile : NotCopied {
  public:
   LatticeFile(std::int64_t side, std::int64_t loops)
       : path_((std::filesystem::temp_directory_path() /
@@ -28,8 +28,6 @@ class LatticeFile {
     write_roadmap(build(read_world("maze:" + size + "x" + size + ",loops=" + std::to_string(loops / 1000.0))), path_);
   }
   ~LatticeFile() { std::filesystem::remove(path_); }
-  LatticeFile(const LatticeFile&) = delete;
-  LatticeFile& operator=(const LatticeFile&) = delete;
   const std::string& path() const { return path_; }
 
   static const LatticeFile& shared(std::int64_t side, std::int64_t loops) {

@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t file_numbers = std::size_t{1} << 25;  // 256 MiB
 
 /// In the folder for temporary files; gone when the program ends.
-class FileToRead {
+class FileToRead : NotCopied {
  public:
   FileToRead() : numbers_(file_numbers), path_(std::filesystem::temp_directory_path() / "warren_bench.roadmap") {
     for (std::size_t i = 0; i < numbers_.size(); ++i) numbers_[i] = i * 0x9e3779b97f4a7c15U;
@@ -30,8 +30,6 @@ class FileToRead {
     std::error_code ignored;
     std::filesystem::remove(path_, ignored);
   }
-  FileToRead(const FileToRead&) = delete;
-  FileToRead& operator=(const FileToRead&) = delete;
 
   void write(const Execution& execution) const {
     const RoadmapSection section = roadmap_section<std::uint64_t>("numbers", numbers_);

@@ -29,7 +29,7 @@ ItemsByKey items_by_key(std::size_t keys, const Each& each, const Poll& poll = {
   assign_polled(first, keys + 2, std::uint32_t{0}, poll);  // two places ahead: items move a list's begin to its end
   each([&](std::uint32_t key, std::uint32_t) { ++first[std::size_t{key} + 2]; });
   for (std::size_t key = 0; key < keys; ++key) first[key + 2] += first[key + 1];
-  lists.items.resize(first.back());
+  assign_polled(lists.items, first.back(), std::uint32_t{0}, poll);
   each([&](std::uint32_t key, std::uint32_t item) { lists.items[first[std::size_t{key} + 1]++] = item; });
   first.pop_back();
   return lists;

@@ -43,14 +43,11 @@ struct Piece {
 
 /// What one thread keeps. Invariants: pieces are whole huge pages, disjoint, mapped, and in nobody's use; idle is the
 /// sum of their sizes.
-class IdlePages {
+class IdlePages : NotCopied {
  public:
-  IdlePages() = default;
   ~IdlePages() {
     for (const Piece& piece : pieces_) ::munmap(piece.at, piece.bytes);
   }
-  IdlePages(const IdlePages&) = delete;
-  IdlePages& operator=(const IdlePages&) = delete;
 
   /// Where they lie; nullptr if no piece is so large.
   /// The end of the smallest piece that will do: no call of the system, which would stop all threads for new addresses.

@@ -8,17 +8,17 @@
 
 #include <cstddef>
 
+#include "core/base/types.hpp"
+
 namespace warren {
 
 /// While one of these lives, the large blocks (512 KiB and more) that its thread releases keep their pages, and the
 /// large blocks that its thread allocates are made of them as far as they go; the last one to end gives the pages back.
 /// Other threads are not concerned. Made and ended on the same thread, in nested order.
-class PagePool {
+class PagePool : NotCopied {
  public:
   PagePool();
   ~PagePool();
-  PagePool(const PagePool&) = delete;
-  PagePool& operator=(const PagePool&) = delete;
 
   /// Bytes that this thread holds and nobody uses.
   static std::size_t idle_bytes() noexcept;

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
@@ -77,7 +78,7 @@ unsigned thread_count(unsigned threads) {
   return usable;
 }
 
-StageTimer::StageTimer(const Execution& execution, const char* stage, double& seconds, std::uint64_t items)
+StageTimer::StageTimer(const Execution& execution, const char* stage, double* seconds, std::uint64_t items)
     : trace_(execution.trace), account_(execution.account), stage_(stage), seconds_(seconds), items_(items) {
   if (execution.progress != nullptr) execution.progress->begin(stage, items);
   if (execution.trace != nullptr) before_ = execution.trace->enter(stage);
@@ -91,7 +92,7 @@ StageTimer::StageTimer(const Execution& execution, const char* stage, double& se
 StageTimer::~StageTimer() {
   const auto end = std::chrono::steady_clock::now();
   const double wall_s = std::chrono::duration<double>(end - begin_).count();
-  seconds_ += wall_s;
+  if (seconds_ != nullptr) *seconds_ += wall_s;
   if (account_ != nullptr) account_->add(stage_, wall_s, process_cpu_s() - cpu_begin_s_);
   if (trace_ == nullptr) return;
   trace_->enter(before_);
@@ -125,6 +126,14 @@ Deadline::Deadline(const Deadline* whole, double seconds, std::size_t kept_back_
   signal_ = whole->signal_;
   whole_ = whole;
   if (whole->end_ && (!end_ || *whole->end_ < *end_)) end_ = whole->end_;
+  is_counted_ = whole->is_counted_;
+  const std::size_t left = is_counted_ ? whole->room() : 0;
+  unasked_.store(left - std::min(left, kept_back_bytes), std::memory_order_relaxed);
+}
+
+Deadline::Deadline(const Deadline* whole, CountedRoom own) : Deadline(whole, std::numeric_limits<double>::infinity()) {
+  is_counted_ = true;
+  unasked_.store(own.bytes, std::memory_order_relaxed);
 }
 
 std::optional<StopReason> Deadline::reached() const noexcept {
@@ -154,8 +163,11 @@ void Deadline::reserve(std::size_t bytes) const {
   if (memory_bytes_ == std::numeric_limits<std::size_t>::max()) return;
   std::size_t unasked = unasked_.load(std::memory_order_relaxed);
   while (bytes < unasked) {
-    if (unasked_.compare_exchange_weak(unasked, unasked - bytes, std::memory_order_relaxed)) return;
+    if (!unasked_.compare_exchange_weak(unasked, unasked - bytes, std::memory_order_relaxed)) continue;
+    if (is_counted_) whole_->reserve(bytes);
+    return;
   }
+  if (is_counted_) refuse(memory_bytes_ + std::min(bytes - unasked, ~memory_bytes_));
   const auto fits = [&](std::size_t held) { return held < memory_bytes_ && bytes <= memory_bytes_ - held; };
   std::size_t held = resident_bytes();
   if (!fits(held)) {
@@ -164,6 +176,19 @@ void Deadline::reserve(std::size_t bytes) const {
   }
   if (!fits(held)) refuse(bytes + std::min(held, std::numeric_limits<std::size_t>::max() - bytes));
   unasked_.store((memory_bytes_ - held - bytes) / 64, std::memory_order_relaxed);
+}
+
+std::size_t Deadline::room() const {
+  if (memory_bytes_ == std::numeric_limits<std::size_t>::max()) return memory_bytes_;
+  if (is_counted_) return unasked_.load(std::memory_order_relaxed);
+  std::size_t held = resident_bytes();
+  if (held > memory_bytes_ / 256) {  // else all that has been freed is less than a step
+    give_freed_pages_back();
+    held = resident_bytes();
+  }
+  const std::size_t left = memory_bytes_ - std::min(memory_bytes_, held);
+  const std::size_t step = std::max<std::size_t>(1, std::bit_floor(left) / 8);
+  return left / step * step;
 }
 
 std::size_t resident_bytes() {

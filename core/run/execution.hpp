@@ -50,6 +50,11 @@ bool memory_holds(const Work& work) {
 /// Set by a signal handler, read by all threads: 0, or the signal's number.
 using SignalFlag = std::atomic<int>;
 
+/// Memory of a part that runs beside others.
+struct CountedRoom {
+  std::size_t bytes;  ///< less than so many are granted in all, whatever is given back
+};
+
 /// Time budget, memory budget and cancellation. Long loops ask between batches; the answer is an exception of its own
 /// type, `Stopped`, that the caller of a whole plan turns into Outcome::stopped. Polling costs one clock read, 25 ns.
 /// Any number of threads may ask. Neither copied nor moved.
@@ -64,6 +69,9 @@ class Deadline {
   /// A part of what runs under `whole` (nullptr: no limit): it ends so many seconds from now (infinity: with the
   /// whole), or with the whole, and has its memory, less what is kept back of it, and its signal.
   Deadline(const Deadline* whole, double seconds, std::size_t kept_back_bytes = 0);
+  /// A part beside others: it ends with the whole (nullptr: no limit), and is granted what both the whole and its own
+  /// room allow. What that allows is a function of what the part asks for, whatever others hold at that moment.
+  Deadline(const Deadline* whole, CountedRoom own);
 
   /// Why to stop, if it is time to.
   std::optional<StopReason> reached() const noexcept;
@@ -79,6 +87,9 @@ class Deadline {
   double seconds_left() const noexcept;
   /// What the process may hold in all.
   std::size_t memory_bytes() const { return memory_bytes_; }
+  /// Bytes that may still be granted; the most that there are: no limit. Where they are not counted they are measured
+  /// and rounded down to an eighth of a power of two: a few threads' stacks make no difference, but at a step's border.
+  std::size_t room() const;
   /// The most that the process would have held with what was refused; 0: nothing was.
   std::size_t wanted_bytes() const { return wanted_.load(std::memory_order_relaxed); }
 
@@ -89,7 +100,8 @@ class Deadline {
   std::size_t memory_bytes_ = std::numeric_limits<std::size_t>::max();
   const SignalFlag* signal_ = nullptr;
   const Deadline* whole_ = nullptr;
-  mutable std::atomic<std::size_t> unasked_{0};  // bytes that may be granted without a look
+  bool is_counted_ = false;
+  mutable std::atomic<std::size_t> unasked_{0};  // bytes that are granted without a look; counted: all that are left
   mutable std::atomic<std::size_t> wanted_{0};
 };
 
@@ -180,7 +192,10 @@ unsigned thread_count(unsigned threads);
 class StageTimer : NotCopied {
  public:
   /// The stage begins; `items`: how many it has, 0: not known. `seconds` and what the execution points to outlive it.
-  StageTimer(const Execution& execution, const char* stage, double& seconds, std::uint64_t items = 0);
+  StageTimer(const Execution& execution, const char* stage, double& seconds, std::uint64_t items = 0)
+      : StageTimer(execution, stage, &seconds, items) {}
+  /// The same; nullptr: nobody keeps the seconds.
+  StageTimer(const Execution& execution, const char* stage, double* seconds, std::uint64_t items = 0);
   ~StageTimer();
   /// So many items it had, where they are known at its end alone: for a trace.
   void set_items(std::uint64_t items) noexcept { items_ = items; }
@@ -190,7 +205,7 @@ class StageTimer : NotCopied {
   StageAccount* account_;
   const char* stage_;
   const char* before_ = nullptr;  // the stage in which this one is, in a trace
-  double& seconds_;
+  double* seconds_;
   std::uint64_t items_;
   double cpu_begin_s_ = 0.0;
   std::chrono::steady_clock::time_point begin_;

@@ -140,6 +140,7 @@ class PlotDrawing {
       }
     }
     if (!of_x && plot_.level) include(*plot_.level);
+    if (!of_x && plot_.all_y && !(extent.high > 0.0)) include(*plot_.all_y);
     return axis_around(extent.low, extent.high, logarithmic, !of_x && plot_.from_zero, of_x && plot_.whole_x);
   }
 

@@ -126,6 +126,7 @@ struct Plot {
   std::vector<PlotSeries> series = {};
   std::optional<double> level = {};  ///< a horizontal line
   std::string level_name = {};
+  std::optional<double> all_y = {};  ///< so far the y axis reaches where nothing is above 0
 };
 
 PlotSheet sheet_of(const Plot& plot);

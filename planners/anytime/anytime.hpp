@@ -9,6 +9,9 @@
 // as there are, and their results are taken in the order of their numbers. So as many turns give the same bytes on any
 // machine, with any number of threads. A turn that a stop cuts is thrown away.
 //
+// Memory is counted, too: what there is when the search begins is divided before each turn by what its work allows. So
+// no task is granted what another takes, and memory ends the same turn with any number of threads.
+//
 // The cost is the sum of the world's metric. It comes near the best there is; how near is said by a lower bound that
 // whoever asks has proved. Asymptotically optimal, as its tree is. That there is no path is never proved.
 #pragma once
@@ -114,9 +117,13 @@ class AnytimeSearch {
         execution_(execution),
         step_(options.trees.step ? *options.trees.step : usual_step(world)),
         restart_options_(options.trees) {
+    constexpr std::size_t uncounted = 16;  // of so many bytes one is for paths, and for what is given back late
+    if (execution.deadline != nullptr) room_ = execution.deadline->room();
+    room_ -= room_ / uncounted;
     constexpr std::uint64_t restart_nodes = 20'000;
     restart_options_.nodes = restart_nodes;
     restart_options_.places = true;
+    restart_options_.trees = 1;
     if (options.parts.tree) {
       tree_.emplace(world, start, std::span<const State>(goals_),
                     RrtStarOptions{.seed = random_bits(options.trees.seed, 0),
@@ -135,7 +142,9 @@ class AnytimeSearch {
       if (has_path() && !is_straight_ && body_.lower_bound) {
         solution_.lower_bound = std::max(solution_.lower_bound, body_.lower_bound());
       }
-      const Deadline sooner(execution_.deadline, seconds_before_the_judge(), bytes_of_the_judge());
+      const std::size_t kept_back = bytes_of_the_judge();
+      const Deadline sooner(execution_.deadline, seconds_before_the_judge(), kept_back);
+      room_ -= std::min(room_, kept_back);
       Execution within = execution_;
       if (execution_.deadline != nullptr) within.deadline = &sooner;
       while (!is_ended()) take_turn(within);
@@ -240,9 +249,14 @@ class AnytimeSearch {
 
   /// What the parts find in this turn, in the order of their tasks: what takes longest comes first.
   std::vector<Found> grown(const Execution& execution) {
+    Execution alone = execution;
+    alone.threads = 1;
+    const Deadline beside_trees(execution.deadline, CountedRoom{room_beside_trees(execution)});
+    Execution counted = alone;
+    counted.deadline = &beside_trees;
     std::vector<std::function<Found(const Execution&)>> tasks;
     const AnytimeParts& parts = options_.parts;
-    if (parts.roadmap) tasks.push_back([this](const Execution& on) { return draw_roadmap(on); });
+    if (parts.roadmap) tasks.push_back([this, &counted](const Execution&) { return draw_roadmap(counted); });
     if (parts.tree) tasks.push_back([this](const Execution& on) { return grow_tree(on); });
     if (parts.restarts) {
       for (Restart& restart : restarts_) {
@@ -259,10 +273,28 @@ class AnytimeSearch {
       });
     }
     std::vector<Found> found(tasks.size());
-    Execution alone = execution;
-    alone.threads = 1;
     for_chunks(tasks.size(), 1, execution, [&](Range r) { found[r.first] = tasks[r.first](alone); });
     return found;
+  }
+
+  /// Bytes that are left where the trees grow in this turn as far as their work allows, and ask for a copy as they do.
+  /// A roadmap has these, the shortener holds but paths. Throws Stopped.
+  std::size_t room_beside_trees(const Execution& execution) const {
+    constexpr std::uint64_t work_of_state = MotionTree<W>::work_of_motion;
+    std::size_t trees = 0;
+    if (tree_) {
+      std::size_t most = tree_->size() + share_of(Part::tree) / work_of_state;
+      for (const Path<State>& path : to_join_) most += path.size();
+      trees += RewiredTree<W>::room_for(std::min<std::size_t>(most, options_.trees.nodes));
+    }
+    for (const Restart& restart : restarts_) {
+      if (!options_.parts.restarts) break;
+      const std::size_t roots = 1 + goals_.size();
+      const std::size_t most = (restart.trees ? restart.trees->node_count() : roots) + restart_share() / work_of_state;
+      trees += MotionTree<W>::room_for(std::min<std::size_t>(most, restart_options_.nodes), 1);
+    }
+    if (trees >= room_) Deadline(execution.deadline, CountedRoom{room_}).reserve(trees);  // is refused
+    return room_ - trees;
   }
 
   /// The best path of a turn is shortened as the best path that there is; others that come near it, as rough ones.
@@ -348,7 +380,7 @@ class AnytimeSearch {
       if (has_path()) restart.trees->bound(solution_.cost * (1.0 + restart.looseness));
     }
     RrtConnectSearch<W>& trees = *restart.trees;
-    trees.advance_by_work(share_of(Part::restarts) / (has_path() ? restart_count : 1), execution);
+    trees.advance_by_work(restart_share(), execution);
     found.counters = counted_since(restart.counted, trees.counters());
     restart.counted = trees.counters();
     if (trees.arrived()) {
@@ -402,6 +434,7 @@ class AnytimeSearch {
   std::uint64_t share_of(Part part) const {
     return (is_alone() ? 4 : 1) * share_ / (idle_[index_of(part)] >= patience ? 2 : 1);
   }
+  std::uint64_t restart_share() const { return share_of(Part::restarts) / (has_path() ? restart_count : 1); }
   /// A tree by itself has the turns of all, and never had to let others come first.
   bool is_alone() const { return !options_.parts.restarts && !options_.parts.roadmap; }
   static std::size_t index_of(Part part) { return static_cast<std::size_t>(part); }
@@ -414,6 +447,8 @@ class AnytimeSearch {
   const Execution& execution_;
   const double step_;
   RrtOptions restart_options_;
+  /// Bytes that trees and roadmaps may take.
+  std::size_t room_ = std::numeric_limits<std::size_t>::max();
 
   AnytimeSolution<State> solution_;
   std::vector<Path<State>> to_join_;  // the tree has yet to take them

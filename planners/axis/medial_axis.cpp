@@ -10,8 +10,10 @@
 #include "core/base/error.hpp"
 #include "core/base/trigonometry.hpp"
 #include "core/plane/geometry.hpp"
+#include "parallel/chunks.hpp"
 #include "planners/vertical_cells/cell_decomposition.hpp"
 #include "planners/visibility/noding.hpp"
+#include "spatial/obstacles/polygon_index.hpp"
 
 namespace warren {
 namespace {
@@ -26,24 +28,21 @@ Vec2 unit(Vec2 v) {
 namespace boost_polygon = boost::polygon;
 
 constexpr std::size_t bytes_per_segment = 1000;
-constexpr std::uint32_t questions_per_poll = 1 << 12;
 constexpr std::size_t items_per_poll = 1 << 16;
 
 /// Of the construction that runs in this thread: Boost makes its predicates itself, so they look here.
 thread_local const Execution* construction = nullptr;
 
-class ConstructionScope {
+class ConstructionScope : NotCopied {
  public:
   explicit ConstructionScope(const Execution& execution) { construction = &execution; }
   ~ConstructionScope() { construction = nullptr; }
-  ConstructionScope(const ConstructionScope&) = delete;
-  ConstructionScope& operator=(const ConstructionScope&) = delete;
 };
 
 /// Throws Stopped, every some thousand questions.
 void poll_sometimes() {
   thread_local std::uint32_t questions = 0;
-  if (++questions % questions_per_poll == 0) construction->check();
+  construction->poll(++questions);
 }
 
 /// One of Boost's own predicates, which looks at the deadline before it answers.
@@ -234,7 +233,7 @@ MedialAxis::MedialAxis(const PlaneObstacles& obstacles, const Execution& executi
   const std::vector<char> is_free = free_points(obstacles, vertices_, execution);
   edges_.reserve(diagram.edges.size());
   for (std::size_t i = 0; i < diagram.edges.size(); ++i) {
-    if (i % 4096 == 0) execution.check();
+    execution.poll(i);
     AxisEdge& edge = diagram.edges[i];
     // The end with more room tells for sure on which side of the obstacles the whole edge lies.
     const auto room = [&](VertexId v) { return distance(vertices_[v], obstacles_[sites_[edge.site].segment]); };
@@ -249,16 +248,12 @@ MedialAxis::MedialAxis(const PlaneObstacles& obstacles, const Execution& executi
 
 std::vector<char> MedialAxis::free_points(const PlaneObstacles& obstacles, const std::vector<Vec2>& points,
                                           const Execution& execution) const {
-  PlaneObstacles solid;
-  solid.polygons = obstacles.polygons;
-  Box all = frame_;
-  for (const Vec2 p : solid.polygons.corners) all.include(p);
-  solid.bounds = all.grown(1.0 + 0.1 * std::max(all.width(), all.height()));
-  const CellDecomposition cells = decompose(solid, points, execution);
+  decompose({obstacles.polygons, {}, {}}, {}, execution);  // throws where polygons overlap
+  const PolygonIndex polygons(obstacles.polygons, execution);
   std::vector<char> is_free(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    is_free[i] = !cells.places[i].blocked && frame_.contains(points[i]) ? 1 : 0;
-  }
+  for_each_index(points.size(), 1024, execution, [&](std::size_t i) {
+    is_free[i] = frame_.contains(points[i]) && !polygons.polygon_around(points[i]) ? 1 : 0;
+  });
   return is_free;
 }
 

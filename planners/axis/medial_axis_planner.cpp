@@ -311,20 +311,12 @@ class AxisPlanning {
 
   void run(const PlaneObstacles& obstacles) {
     if (obstacles.polygons.empty() && obstacles.walls.empty() && !obstacles.bounds) return go_straight();
-    build_axis(obstacles);
-    run(obstacles.polygons);
+    build(obstacles);
+    run(*plan_.made);
   }
   void run(const AxisRoadmap& roadmap) {
-    axis_ = &roadmap.axis;
-    obstacles_ = &roadmap.index;
-    run(roadmap.polygons);
-  }
-  Solution<Vec2>& solution() { return solution_; }
-  MedialAxisPlan& kept() { return plan_; }
-
- private:
-  void run(const PolygonSet& polygons) {
-    if (ends_are_blocked(polygons) || !join_ends()) return;
+    roadmap_ = &roadmap;
+    if (ends_are_blocked() || !join_ends()) return;
     // With exactly the clearance first: a gap that is just as wide as the disc is a way. Where rounding spoils that,
     // with a little more room.
     if (plan(options_.clearance) && !keeps_clearance()) {
@@ -335,18 +327,22 @@ class AxisPlanning {
       }
     }
   }
-  const MedialAxis& axis() const { return *axis_; }
+  Solution<Vec2>& solution() { return solution_; }
+  MedialAxisPlan& kept() { return plan_; }
+
+ private:
+  const MedialAxis& axis() const { return roadmap_->axis; }
   void go_straight() {
     solution_.outcome = Outcome::solved;
     solution_.path = {start_, goal_};
     plan_.axis_clearance = infinity;
   }
-  void build_axis(const PlaneObstacles& obstacles) {
+  void build(const PlaneObstacles& obstacles) {
     const StageTimer timer(execution_, "medial axis", solution_.seconds.graph);
-    axis_ = &plan_.axis.emplace(obstacles, execution_);
+    plan_.made.emplace(obstacles, execution_);
   }
-  bool ends_are_blocked(const PolygonSet& polygons) {
-    const auto fits = [&](Vec2 p) {
+  bool ends_are_blocked() {
+    const auto fits = [&, &polygons = roadmap_->polygons](Vec2 p) {
       if (!axis().frame().contains(p)) return false;
       for (std::size_t i = 0; i < polygons.size(); ++i) {
         execution_.poll(i);
@@ -430,16 +426,13 @@ class AxisPlanning {
   /// Does the polyline keep the clearance for sure, as an exact verification will ask?
   bool keeps_clearance() {
     const StageTimer timer(execution_, "check", solution_.seconds.connect);
-    if (obstacles_ == nullptr) obstacles_ = &own_obstacles_.emplace(true_obstacles(axis()), execution_);
-    return line_keeps_clearance(*obstacles_, solution_.path, options_.clearance, execution_);
+    return line_keeps_clearance(roadmap_->index, solution_.path, options_.clearance, execution_);
   }
 
   const Vec2 start_, goal_;
   const MedialAxisOptions& options_;
   const Execution& execution_;
-  const MedialAxis* axis_ = nullptr;      // the plan's own, or a roadmap's
-  const WallIndex* obstacles_ = nullptr;  // that the path is checked against
-  std::optional<WallIndex> own_obstacles_;
+  const AxisRoadmap* roadmap_ = nullptr;  // that is asked, or the plan's own
   MedialAxisPlan plan_;
   std::optional<AxisPlace> start_place_, goal_place_;
   Solution<Vec2> solution_;

@@ -36,11 +36,21 @@ struct MedialAxisOptions {
   QueueKind queue = QueueKind::heap;      ///< of astar and dijkstra
 };
 
+/// What of a plan depends on neither start nor goal. Immutable; any number of threads may plan on it.
+struct AxisRoadmap {
+  /// Throws as MedialAxis.
+  AxisRoadmap(const PlaneObstacles& obstacles, const Execution& execution);
+
+  PolygonSet polygons;  ///< whose insides are blocked
+  MedialAxis axis;      ///< of all obstacles
+  WallIndex index;      ///< of what paths must keep off: polygons' sides, walls, bounds
+};
+
 /// What a plan leaves to be drawn or told.
 struct MedialAxisPlan {
-  std::optional<MedialAxis> axis;  ///< none: the plan ended before
-  double axis_clearance = 0.0;     ///< of the way along the axis, at its narrowest; only if solved
-  double axis_length = 0.0;        ///< of that way, arcs as arcs
+  std::optional<AxisRoadmap> made;  ///< none: the plan ended before, or was asked on a roadmap
+  double axis_clearance = 0.0;      ///< of the way along the axis, at its narrowest; only if solved
+  double axis_length = 0.0;         ///< of that way, arcs as arcs
 };
 
 /// Plans from start to goal for a point that touches nothing, or a disc. Outcomes: solved; start_blocked and
@@ -51,16 +61,6 @@ struct MedialAxisPlan {
 Solution<Vec2> plan_on_medial_axis(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal,
                                    const MedialAxisOptions& options, const Execution& execution,
                                    MedialAxisPlan* keep = nullptr);
-
-/// What of a plan depends on neither start nor goal. Immutable; any number of threads may plan on it.
-struct AxisRoadmap {
-  /// Throws as MedialAxis.
-  AxisRoadmap(const PlaneObstacles& obstacles, const Execution& execution);
-
-  PolygonSet polygons;  ///< whose insides are blocked
-  MedialAxis axis;      ///< of all obstacles
-  WallIndex index;      ///< of what paths must keep off: polygons' sides, walls, bounds
-};
 
 /// The same plan on an axis that is there already. `keep` receives lengths and clearances alone.
 Solution<Vec2> plan_on_medial_axis(const AxisRoadmap& roadmap, Vec2 start, Vec2 goal, const MedialAxisOptions& options,

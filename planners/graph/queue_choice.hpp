@@ -42,9 +42,12 @@ auto with_queue(QueueKind kind, std::size_t vertex_count, const Execution& execu
   return call(PolledArray<ResortedArray>(execution));
 }
 
+/// A vertex of a search that has all of them in its heap: its way and parent, its place in the heap and its entry.
+inline constexpr std::size_t searched_bytes = sizeof(double) + 2 * sizeof(VertexId) + sizeof(QueueEntry);
+
 /// Asks for what a search of so many vertices takes, its queue included, where the state has to grow. Throws Stopped.
-inline void ask_room(const SearchState& state, std::size_t vertex_count, const Execution& execution) {
-  constexpr std::size_t bytes_a_vertex = 24;
+inline void ask_room(const SearchState& state, std::size_t vertex_count, std::size_t bytes_a_vertex,
+                     const Execution& execution) {
   if (state.vertex_count() < vertex_count) execution.reserve(vertex_count * bytes_a_vertex);
 }
 
@@ -54,7 +57,7 @@ template <class Neighbours, class Estimate>
 SearchResult search_best_first(QueueKind kind, std::size_t vertex_count, VertexId start, VertexId goal,
                                const Neighbours& neighbours, const Estimate& estimate, SearchState& state,
                                const Execution& execution) {
-  ask_room(state, vertex_count, execution);
+  ask_room(state, vertex_count, searched_bytes, execution);
   state.resize(vertex_count, [&] { execution.check(); });
   return with_queue(kind, vertex_count, execution, [&](auto& queue) {
     return best_first(start, goal, neighbours, estimate, queue, state, [&] { return execution.should_stop(); });
@@ -64,7 +67,8 @@ SearchResult search_best_first(QueueKind kind, std::size_t vertex_count, VertexI
 /// The blind search of this kind, as search_best_first.
 inline SearchResult search_blindly(SearchKind search, const Graph& graph, VertexId start, VertexId goal,
                                    SearchState& state, const Execution& execution) {
-  ask_room(state, graph.vertex_count(), execution);
+  constexpr std::size_t bytes_a_vertex = 24;  // the state's 12, and 8 of the deepest path, more while its list moves
+  ask_room(state, graph.vertex_count(), bytes_a_vertex, execution);
   state.resize(graph.vertex_count(), [&] { execution.check(); });
   const auto should_stop = [&] { return execution.should_stop(); };
   return search == SearchKind::bfs ? breadth_first(graph, start, goal, state, should_stop)

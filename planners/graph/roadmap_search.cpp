@@ -26,10 +26,9 @@ EstimateTo estimate_to(const ImplicitSearch& asked, VertexId to) {
 template <class Neighbours>
 SearchResult search_from_both_ends(const std::array<Neighbours, 2>& neighbours, const std::array<VertexId, 2>& roots,
                                    const ImplicitSearch& asked, const std::array<SearchState*, 2>& states) {
-  constexpr std::size_t bytes_a_vertex = 36;
   const std::size_t n = asked.vertex_count;
   const Execution& execution = asked.execution;
-  if (states[0]->vertex_count() < n) execution.reserve(n * bytes_a_vertex);
+  ask_room(*states[0], n, 2 * (searched_bytes + 1), execution);
   const std::array<EstimateTo, 2> to_root{estimate_to(asked, roots[0]), estimate_to(asked, roots[1])};
   const SearchResult found = with_queue(asked.queue, 0, execution, [&](const auto& empty_queue) {
     using Queue = std::remove_cvref_t<decltype(empty_queue)>;

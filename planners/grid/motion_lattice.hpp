@@ -137,6 +137,7 @@ struct LatticeSearchOptions {
   double gap = 0.05;                        ///< the search ends when the bound is proved to be so near; >= 0
   std::optional<std::uint64_t> iterations;  ///< rounds, >= 1; none: as many as it takes
   double unit = 1.0;                        ///< of cost, in the world's: what improvements tell
+  std::size_t judge_bytes = 0;              ///< of memory, what the judge holds whatever the path
 };
 
 /// A motion from a state, by its number among those from its heading.
@@ -182,6 +183,7 @@ class LatticeSearch {
   LatticeSearch(Space& space, const LatticeSearchOptions& options, const Execution& execution)
       : space_(space),
         options_(options),
+        whole_(execution.deadline),
         execution_(execution),
         gears_(options.gear_change > 0 ? 2 : 1),
         per_cell_(space.headings() * gears_),
@@ -323,7 +325,17 @@ class LatticeSearch {
   }
   bool is_open(std::uint32_t node) const { return nodes_[node].closed != round_; }
 
+  /// Memory for the judge of the path is kept back from here on. Throws Stopped where it is taken already.
+  void keep_back() {
+    constexpr std::size_t a_step = 2048;  // four states at most, of 512 bytes as in planners/anytime
+    if (whole_ == nullptr) return;
+    const std::size_t bytes = options_.judge_bytes + a_step * solution_.path.steps.size();
+    execution_.deadline = &but_for_judge_.emplace(whole_, std::numeric_limits<double>::infinity(), bytes);
+    execution_.reserve(0);
+  }
+
   void improve(std::uint32_t weight) {
+    if (solution_.found()) keep_back();
     begin_round(weight);
     while (!open_.empty() && open_.front().key < parts * goal_cost_) {
       std::pop_heap(open_.begin(), open_.end());
@@ -451,7 +463,9 @@ class LatticeSearch {
 
   Space& space_;
   const LatticeSearchOptions& options_;
-  const Execution& execution_;
+  const Deadline* whole_;
+  std::optional<Deadline> but_for_judge_;
+  Execution execution_;
   std::uint32_t gears_;
   std::uint32_t per_cell_;
   RawVector<std::uint32_t> blocks_;  // by cell

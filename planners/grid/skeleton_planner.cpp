@@ -247,7 +247,7 @@ class SkeletonPlan {
   void link() {
     const StageTimer timer(execution_, "connect", plan_.seconds.connect, cells_->size());
     for (VertexId v = 0; v < cells_->size(); ++v) {
-      if (v % 4096 == 0) execution_.check();
+      execution_.poll(v);
       const Cell c = cells_->cell(v);
       for (const auto& [dx, dy] : cell_steps) {
         const std::int64_t x = std::int64_t{c.x} + dx;
@@ -367,8 +367,6 @@ class SkeletonPlan {
   SkeletonPath plan_;
 };
 
-constexpr std::size_t cells_per_poll = 4096;
-
 /// Follows the skeleton from side to side: chains of cells with two neighbours each, between those that have more or
 /// fewer. One use.
 class LinesOfSkeleton {
@@ -381,20 +379,17 @@ class LinesOfSkeleton {
 
   SkeletonLines run() {
     for (VertexId v = 0; v < cells_.size(); ++v) {
-      poll(v);
+      execution_.poll(v);
       if (neighbours(v).size() != 2) follow_all(v);
     }
     for (VertexId v = 0; v < cells_.size(); ++v) {  // what is left are rings
-      poll(v);
+      execution_.poll(v);
       if (passed_[v] == 0 && neighbours(v).size() == 2) follow(v, neighbours(v).front());
     }
     return numbered();
   }
 
  private:
-  void poll(std::size_t i) const {
-    if (i % cells_per_poll == 0) execution_.check();
-  }
   NumberedCells::Neighbours neighbours(VertexId v) const { return cells_.neighbours(v); }
 
   /// Each chain once: from the end that comes first, or from either where it is walked by its own cells.
@@ -411,7 +406,7 @@ class LinesOfSkeleton {
   void follow(VertexId from, VertexId next) {
     chain_.assign({from, next});
     while (next != from && neighbours(next).size() == 2) {
-      poll(chain_.size());
+      execution_.poll(chain_.size());
       passed_[next] = 1;
       const auto near = neighbours(next);
       const VertexId before = chain_[chain_.size() - 2];

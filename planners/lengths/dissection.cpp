@@ -62,6 +62,7 @@ class RegionCut {
     mark_inside(crossing);
     list_crossed(crossing);
     cover_crossed();
+    region_ = nullptr;  // it may end before this
     return side_;
   }
 

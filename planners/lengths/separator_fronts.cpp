@@ -15,8 +15,6 @@
 namespace warren {
 namespace {
 
-// Compilers turn the loop into vector code of the instruction set of the function that it is inlined in.
-
 template <class Length>
 [[gnu::always_inline]] inline void lessen(std::uint32_t* __restrict least, const Length* __restrict rest,
                                           std::uint32_t first, std::size_t count) {
@@ -38,47 +36,16 @@ template <class Length>
   }
 }
 
-#if defined(__x86_64__) && !defined(WARREN_PLAIN)
-[[gnu::target("avx2")]] void lessen_row_by_avx2(std::uint32_t* least, std::uint32_t* by, const std::uint32_t* rest,
-                                                std::uint32_t first, std::uint32_t gate, std::size_t count) {
-  lessen_by(least, by, rest, first, gate, count);
-}
-template <class Length>
-[[gnu::target("avx2")]] void lessen_row_avx2(std::uint32_t* least, const Length* rest, std::uint32_t first,
-                                             std::size_t count) {
-  lessen(least, rest, first, count);
-}
-bool has_avx2() { return __builtin_cpu_supports("avx2") != 0; }
-#else
-constexpr auto lessen_row_by_avx2 = lessen_row_by_plain;
-template <class Length>
-constexpr LessenRow<Length> lessen_row_avx2 = lessen_row_plain<Length>;
-constexpr bool has_avx2() { return false; }
-#endif
-
 }  // namespace
 
-template <class Length>
-void lessen_row_plain(std::uint32_t* least, const Length* rest, std::uint32_t first, std::size_t count) {
-  lessen(least, rest, first, count);
-}
-
-void lessen_row_by_plain(std::uint32_t* least, std::uint32_t* by, const std::uint32_t* rest, std::uint32_t first,
-                         std::uint32_t gate, std::size_t count) {
-  lessen_by(least, by, rest, first, gate, count);
-}
-
-LessenRowBy lessen_row_by() { return has_avx2() ? lessen_row_by_avx2 : lessen_row_by_plain; }
+LessenRowBy lessen_row_by(detail::InstructionSet set) { return detail::VersionsOf<&lessen_by>::up_to_avx2(set); }
 
 template <class Length>
-LessenRow<Length> lessen_row() {
-  if (has_avx2()) return lessen_row_avx2<Length>;
-  return lessen_row_plain<Length>;
+LessenRow<Length> lessen_row(detail::InstructionSet set) {
+  return detail::VersionsOf<&lessen<Length>>::up_to_avx2(set);
 }
-template LessenRow<std::uint32_t> lessen_row<std::uint32_t>();
-template LessenRow<std::uint16_t> lessen_row<std::uint16_t>();
-template void lessen_row_plain(std::uint32_t*, const std::uint32_t*, std::uint32_t, std::size_t);
-template void lessen_row_plain(std::uint32_t*, const std::uint16_t*, std::uint32_t, std::size_t);
+template LessenRow<std::uint32_t> lessen_row<std::uint32_t>(detail::InstructionSet);
+template LessenRow<std::uint16_t> lessen_row<std::uint16_t>(detail::InstructionSet);
 
 namespace {
 

@@ -24,6 +24,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/base/instruction_set.hpp"
 #include "core/run/execution.hpp"
 #include "planners/lengths/dissection.hpp"
 #include "planners/lengths/lattice_passages.hpp"
@@ -41,20 +42,14 @@ inline constexpr std::uint16_t no_short_way = 0xffff;
 template <class Length>
 using LessenRow = void (*)(std::uint32_t* least, const Length* rest, std::uint32_t first, std::size_t count);
 
-/// The fastest of this processor.
+/// The fastest of this processor, or of another set.
 template <class Length>
-LessenRow<Length> lessen_row();
+LessenRow<Length> lessen_row(detail::InstructionSet set = detail::best_instruction_set());
 
 /// The same where it is told by what: by[i] becomes `gate` where least[i] became smaller. `by` overlaps neither.
 using LessenRowBy = void (*)(std::uint32_t* least, std::uint32_t* by, const std::uint32_t* rest, std::uint32_t first,
                              std::uint32_t gate, std::size_t count);
-LessenRowBy lessen_row_by();
-
-/// What needs nothing special.
-template <class Length>
-void lessen_row_plain(std::uint32_t* least, const Length* rest, std::uint32_t first, std::size_t count);
-void lessen_row_by_plain(std::uint32_t* least, std::uint32_t* by, const std::uint32_t* rest, std::uint32_t first,
-                         std::uint32_t gate, std::size_t count);
+LessenRowBy lessen_row_by(detail::InstructionSet set = detail::best_instruction_set());
 
 /// A hop is a way from a gate to another that passes no third: along one chain, or through the junctions of one leaf.
 /// Its turns are one number: at each junction, the gate where it begins included, it takes one of so many exits, that

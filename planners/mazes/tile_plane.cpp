@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/instruction_set.hpp"
 #include "core/plane/geometry.hpp"
 #include "planners/mazes/wall_steps.hpp"
 #include "spatial/obstacles/wall_index.hpp"
@@ -28,9 +29,6 @@ Span standing(double low, double high, std::uint32_t count, std::uint32_t origin
 
 using plane_bit::edges, plane_bit::kept;
 using Byte = std::uint8_t;
-
-// Compilers turn the loops of these functions into vector code of the instruction set of the function that they are
-// inlined in.
 
 [[gnu::always_inline]] inline void find_dead_ends(const Byte* __restrict row, Byte* __restrict found, int width) {
   for (int i = 0; i < width; ++i) {
@@ -68,23 +66,9 @@ using Byte = std::uint8_t;
   }
 }
 
-void peel_any(const PlaneRow& r) { peel(r.row, r.above, r.below, r.found, r.width); }
-void dead_ends_any(const PlaneRow& r) { find_dead_ends(r.row, r.found, r.width); }
-void keys_any(const PlaneRow& r) { find_keys(r.row, r.found, r.width); }
-
-#if defined(__x86_64__) && !defined(WARREN_PLAIN)
-[[gnu::target("avx2")]] void peel_avx2(const PlaneRow& r) { peel(r.row, r.above, r.below, r.found, r.width); }
-[[gnu::target("avx2")]] void dead_ends_avx2(const PlaneRow& r) { find_dead_ends(r.row, r.found, r.width); }
-[[gnu::target("avx2")]] void keys_avx2(const PlaneRow& r) { find_keys(r.row, r.found, r.width); }
-
-[[gnu::target("avx512f,avx512bw,avx512vl")]] void peel_avx512(const PlaneRow& r) {
-  peel(r.row, r.above, r.below, r.found, r.width);
-}
-[[gnu::target("avx512f,avx512bw,avx512vl")]] void dead_ends_avx512(const PlaneRow& r) {
-  find_dead_ends(r.row, r.found, r.width);
-}
-[[gnu::target("avx512f,avx512bw,avx512vl")]] void keys_avx512(const PlaneRow& r) { find_keys(r.row, r.found, r.width); }
-#endif
+[[gnu::always_inline]] inline void peel_row(const PlaneRow& r) { peel(r.row, r.above, r.below, r.found, r.width); }
+[[gnu::always_inline]] inline void dead_ends_of_row(const PlaneRow& r) { find_dead_ends(r.row, r.found, r.width); }
+[[gnu::always_inline]] inline void keys_of_row(const PlaneRow& r) { find_keys(r.row, r.found, r.width); }
 
 }  // namespace
 
@@ -105,13 +89,14 @@ void TilePlane::reset(std::size_t tile, const Box& box) {
 }
 
 std::vector<PlaneRowWork> plane_row_variants() {
-  std::vector<PlaneRowWork> variants{{"baseline", peel_any, dead_ends_any, keys_any}};
-#if defined(__x86_64__) && !defined(WARREN_PLAIN)
-  if (__builtin_cpu_supports("avx2")) variants.push_back({"AVX2", peel_avx2, dead_ends_avx2, keys_avx2});
-  if (__builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl")) {
-    variants.push_back({"AVX-512", peel_avx512, dead_ends_avx512, keys_avx512});
-  }
-#endif
+  using detail::InstructionSet;
+  using Peel = detail::VersionsOf<&peel_row>;
+  using DeadEnds = detail::VersionsOf<&dead_ends_of_row>;
+  using Keys = detail::VersionsOf<&keys_of_row>;
+  std::vector<PlaneRowWork> variants{{"baseline", Peel::baseline, DeadEnds::baseline, Keys::baseline}};
+  const InstructionSet best = detail::best_instruction_set();
+  if (best >= InstructionSet::avx2) variants.push_back({"AVX2", Peel::avx2, DeadEnds::avx2, Keys::avx2});
+  if (best == InstructionSet::avx512) variants.push_back({"AVX-512", Peel::avx512, DeadEnds::avx512, Keys::avx512});
   return variants;
 }
 

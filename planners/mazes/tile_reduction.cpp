@@ -138,7 +138,7 @@ TileSummary unpack_summary(ValueUnpacker& from, std::uint32_t side) {
 void check_borders(const TileGrid& grid, std::span<const TileSummary> tiles, const Execution& execution) {
   const TileSummary nothing;
   for (std::size_t t = 0; t < tiles.size(); ++t) {
-    if (t % 4096 == 0) execution.check();
+    execution.poll(t);
     const bool is_last = t % grid.tile_cols + 1 == grid.tile_cols;
     const bool is_top = t + grid.tile_cols >= tiles.size();
     if (agree(grid, tiles[t], is_last ? nothing : tiles[t + 1], 0) &&

@@ -45,16 +45,20 @@ class MotionTree {
   double cost(VertexId v) const { return costs_[v]; }
   /// What growing has taken: a state check 1, a motion check 4, a neighbour query 1 for each neighbour that it gives.
   std::uint64_t work() const { return work_; }
+  /// No state is grown for less.
+  static constexpr std::uint64_t work_of_motion = 4;
 
   /// Asks for what the tree takes while it grows by an eighth, a copy of what it has included, whenever it has, and for
-  /// so many more bytes a state: what is asked long before it is used, others take for theirs. Throws Stopped.
-  void ask_room(const Execution& execution, std::size_t more_bytes = 0) {
-    constexpr std::size_t index_bytes = sizeof(Embedding) > 4 * sizeof(double) ? 96 : 32;  // of its own, a state
+  /// so many more bytes a state: what is asked long before it is used, others take for theirs. Of trees that grow side
+  /// by side each asks for all: none sees what others are about to take. Throws Stopped.
+  void ask_room(const Execution& execution, std::size_t more_bytes = 0, std::size_t side_by_side = 1) {
     if (states_.size() < asked_at_) return;
-    constexpr std::size_t least = 64;  // small trees count, too: there may be 4,096
-    asked_at_ = states_.size() + std::max(least, states_.size() / 8);
-    execution.reserve(
-        asked_at_ * (sizeof(State) + sizeof(VertexId) + sizeof(double) + sizeof(Embedding) + index_bytes + more_bytes));
+    asked_at_ = next_size(states_.size());
+    execution.reserve(side_by_side * asked_at_ * (bytes_a_state + more_bytes));
+  }
+  /// Bytes that a tree of so many states holds and has asked for beside them, at most.
+  static std::size_t room_for(std::size_t states, std::size_t more_bytes = 0) {
+    return (states + next_size(states)) * (bytes_a_state + more_bytes);
   }
   /// Those of all states. Throws Stopped.
   std::vector<Embedding> embeddings(const Execution& execution) const {
@@ -146,7 +150,13 @@ class MotionTree {
 
  private:
   static constexpr std::uint64_t work_of_state = 1;
-  static constexpr std::uint64_t work_of_motion = 4;
+  static constexpr std::size_t index_bytes = sizeof(Embedding) > 4 * sizeof(double) ? 96 : 32;  // of its own, a state
+  static constexpr std::size_t bytes_a_state =
+      sizeof(State) + sizeof(VertexId) + sizeof(double) + sizeof(Embedding) + index_bytes;
+  static std::size_t next_size(std::size_t states) {
+    constexpr std::size_t least = 64;  // small trees count, too: there may be 4,096
+    return states + std::max(least, states / 8);
+  }
 
   const W* world_;
   GrowthDirection direction_;

@@ -39,7 +39,7 @@ class RrtSearch {
   void advance(std::uint64_t steps, const Execution& execution) {
     for (std::uint64_t i = 0; i < steps && !arrived() && !gave_up(); ++i) {
       execution.check();
-      tree_.ask_room(execution);
+      tree_.ask_room(execution, 0, options_->trees);
       take_step();
     }
     counters_.refused = refused_motions(query_);

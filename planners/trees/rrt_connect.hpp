@@ -88,6 +88,7 @@ class RrtConnectSearch {
   /// After so many samples, too: trees that are shut in on all sides never get their nodes.
   bool gave_up() const { return node_count() >= options_->nodes || counters_.samples >= 64 * options_->nodes; }
   const Counters& counters() const { return counters_; }
+  std::size_t node_count() const { return trees_[0].size() + trees_[1].size(); }
   /// In the world's metric; only where arrived().
   double cost() const { return trees_[0].cost(meeting_[0]) + trees_[1].cost(meeting_[1]); }
   /// Start to goal; only where arrived().
@@ -116,12 +117,11 @@ class RrtConnectSearch {
     begun_ = true;
     while (!arrived() && !gave_up() && goes_on()) {
       execution.check();
-      for (MotionTree<W>& tree : trees_) tree.ask_room(execution, 1);  // a bit of failed_
+      for (MotionTree<W>& tree : trees_) tree.ask_room(execution, 1, options_->trees);  // a bit of failed_
       take_step();
     }
     counters_.refused = refused_motions(query_);
   }
-  std::size_t node_count() const { return trees_[0].size() + trees_[1].size(); }
   std::optional<State> next_target() {
     const std::uint64_t index = counters_.samples++;
     // The first targets are the other tree's roots: in the open that is all.

@@ -42,6 +42,7 @@ class RewiredTree : public MotionTree<W> {
   explicit RewiredTree(const W& world) : MotionTree<W>(world, GrowthDirection::forward) {}
 
   void ask_room(const Execution& execution) { MotionTree<W>::ask_room(execution, sizeof(Kin)); }
+  static std::size_t room_for(std::size_t states) { return MotionTree<W>::room_for(states, sizeof(Kin)); }
   void add_root(const State& state) {
     MotionTree<W>::add_root(state);
     kin_.push_back({});
@@ -55,13 +56,12 @@ class RewiredTree : public MotionTree<W> {
   }
   /// The motion from the new parent to v is free and makes v cheaper. Throws Stopped: then costs below v may be old.
   void change_parent(VertexId v, VertexId parent, const Execution& execution) {
-    constexpr std::uint64_t states_per_poll = 4096;
     unhang(v);
     this->parents_[v] = parent;
     hang(v, parent);
     open_.assign(1, v);
     for (std::uint64_t count = 1; !open_.empty(); ++count) {
-      if (count % states_per_poll == 0) execution.check();
+      execution.poll(count);
       const VertexId next = open_.back();
       open_.pop_back();
       this->costs_[next] = this->costs_[this->parents_[next]] + this->length(this->parents_[next], this->state(next));

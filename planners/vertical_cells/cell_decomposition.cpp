@@ -98,15 +98,15 @@ class CellSweep {
         execution_(execution),
         order_{SweepPlace{{{}, {}, CellDecomposition::floor_segment, no_number, no_number}}} {
     const std::size_t corners = obstacles.polygons.corners.size() + 2 * obstacles.walls.size();
-    if (corners + points.size() >= std::size_t{1} << 31) throw InputError("cells", "expected fewer than 2^31 corners");
+    if (corners >= std::size_t{1} << 31) throw InputError("cells", "expected fewer than 2^31 corners");
     execution.reserve(corners * bytes_per_corner);
-    choose_box(points);
+    result_.box = box_around(obstacles);
+    if (!obstacles.bounds && result_.box.empty()) result_.box = box_around(points);
     result_.corners.reserve(corners);
     result_.segments.reserve(corners - obstacles.walls.size());
-    events_.reserve(corners + points.size());
+    events_.reserve(corners);
     add_polygons();
     add_walls();
-    add_points(points);
     node_of_.assign(result_.segments.size(), order_.end());
   }
   CellDecomposition run() {
@@ -123,9 +123,7 @@ class CellSweep {
       while (last < events_.size() && events_[last].at == events_[first].at) ++last;
       gather(first, last);
       find_touching();
-      answer_questions(false);
-      if (!ending_.empty() || !starting_.empty()) pass_corner();
-      answer_questions(true);
+      pass_corner();
       if (last - polled < corners_per_poll) continue;
       execution_.check();
       execution_.advance(last - polled);
@@ -136,24 +134,19 @@ class CellSweep {
 
  private:
   using Node = SweepOrder::const_iterator;
-  /// A corner, or behind them a point that is asked about.
+  /// A corner, by its number.
   struct Event {
     Vec2 at;
     std::uint32_t number;
   };
 
-  void choose_box(std::span<const Vec2> points) {
-    result_.box = box_around(obstacles_);
-    if (obstacles_.bounds || !result_.box.empty()) return;
-    for (const Vec2 p : points) result_.box.include(p);
-  }
   void add_polygons() {
     const PolygonSet& polygons = obstacles_.polygons;
     result_.corners = polygons.corners;
     polygon_of_.resize(polygons.corners.size());
     side_before_.resize(polygons.corners.size());
     for (std::size_t p = 0; p < polygons.size(); ++p) {
-      if (p % corners_per_poll == 0) execution_.check();
+      execution_.poll(p);
       const std::span<const Vec2> corners = polygons[p];
       const bool inside = stands_inside(corners, p);
       for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -167,7 +160,7 @@ class CellSweep {
   }
   void add_walls() {
     for (std::size_t w = 0; w < obstacles_.walls.size(); ++w) {
-      if (w % corners_per_poll == 0) execution_.check();
+      execution_.poll(w);
       const Segment& wall = obstacles_.walls[w];
       const Segment s = left_to_right(wall.a, wall.b);
       const auto number = static_cast<std::uint32_t>(result_.corners.size());
@@ -188,29 +181,17 @@ class CellSweep {
     if (!apart) throw ObstacleClash(obstacle, ObstacleClash::bounds, obstacles_.polygons.size());
     return false;
   }
-  void add_points(std::span<const Vec2> points) {
-    result_.places.resize(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      if (i % corners_per_poll == 0) execution_.check();
-      result_.places[i].blocked = !result_.box.contains(points[i]);
-      if (result_.places[i].blocked) continue;
-      events_.push_back({points[i], static_cast<std::uint32_t>(result_.corners.size() + i)});
-    }
-  }
 
-  /// Which segments end and start in this point, and who asks about it?
+  /// Which segments end and start in this point?
   void gather(std::size_t first, std::size_t last) {
     at_ = events_[first].at;
     corner_ = events_[first].number;
     ending_.clear();
     starting_.clear();
-    asked_.clear();
     const auto sides = static_cast<std::uint32_t>(polygon_of_.size());
     for (std::size_t i = first; i < last; ++i) {
       const std::uint32_t number = events_[i].number;
-      if (number >= result_.corners.size()) {
-        asked_.push_back(number - static_cast<std::uint32_t>(result_.corners.size()));
-      } else if (number >= sides) {
+      if (number >= sides) {
         sort_segment(sides + (number - sides) / 2);
       } else {
         sort_segment(number);
@@ -232,29 +213,6 @@ class CellSweep {
     }
     below_ = std::prev(first);
     for (above_ = first; above_ != order_.end() && side(above_->entry, at_) == 0; ++above_) touching_.push_back(above_);
-  }
-  /// Where are the points that lie here? Asked before the corner is passed and after, for the cells left and right.
-  void answer_questions(bool passed) {
-    if (asked_.empty()) return;
-    if (!passed) {
-      const auto is_side = [&](std::uint32_t segment) { return !is_wall(segment); };
-      const bool on_side =
-          std::any_of(starting_.begin(), starting_.end(), is_side) ||
-          std::any_of(touching_.begin(), touching_.end(), [&](Node n) { return is_side(n->entry.segment); });
-      const bool blocked = !on_side && below_->entry.polygon != no_number;
-      for (const std::uint32_t i : asked_) result_.places[i].blocked = blocked;
-    } else if (ending_.empty() && starting_.empty()) {
-      return;  // nothing has changed since
-    }
-    for (const std::uint32_t i : asked_) {
-      CellPlace& place = result_.places[i];
-      for (Node n = below_; n != above_; ++n) {
-        const std::uint32_t cell = n->entry.cell;
-        if (cell != no_number && !is_flat(result_, obstacles_, result_.cells[cell])) place.cells.push_back(cell);
-      }
-      std::sort(place.cells.begin(), place.cells.end());
-      place.cells.erase(std::unique(place.cells.begin(), place.cells.end()), place.cells.end());
-    }
   }
   void pass_corner() {
     const std::uint32_t lower_cell = below_->entry.cell;
@@ -408,11 +366,22 @@ class CellSweep {
   // About the corner that is being passed:
   Vec2 at_;
   std::uint32_t corner_ = 0;
-  std::vector<std::uint32_t> ending_, starting_, asked_;  // segments; segments; points
-  std::vector<Node> touching_;                            // from bottom to top
-  std::vector<Node> put_;                                 // where starting_ went
-  Node below_, above_;                                    // the neighbours of all that; above_ may be the end
+  std::vector<std::uint32_t> ending_, starting_;  // segments
+  std::vector<Node> touching_;                    // from bottom to top
+  std::vector<Node> put_;                         // where starting_ went
+  Node below_, above_;                            // the neighbours of all that; above_ may be the end
 };
+
+/// Sweeps, then looks where the points lie.
+CellDecomposition decomposed(const PlaneObstacles& obstacles, std::span<const Vec2> points, Overlaps overlaps,
+                             const Execution& execution) {
+  CellDecomposition cells = CellSweep(obstacles, points, overlaps, execution).run();
+  for (const Vec2 p : points) {
+    execution.check();
+    cells.places.push_back(locate(cells, obstacles, p));
+  }
+  return cells;
+}
 
 }  // namespace
 
@@ -444,18 +413,14 @@ Segment CellDecomposition::door_line(std::uint32_t door) const {
 }
 
 CellDecomposition decompose(const PlaneObstacles& obstacles, std::span<const Vec2> points, const Execution& execution) {
-  return CellSweep(obstacles, points, Overlaps::refused, execution).run();
+  return decomposed(obstacles, points, Overlaps::refused, execution);
 }
 
 CellDecomposition decompose_united(const PlaneObstacles& obstacles, std::span<const Vec2> points,
                                    const Execution& execution) {
   assert(obstacles.walls.empty());
-  PlaneObstacles united{node_polygons(framed(obstacles), execution).polygons, {}, std::nullopt};
-  CellDecomposition cells = CellSweep(united, points, Overlaps::united, execution).run();
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    cells.places[i].blocked = strictly_inside(united.polygons, points[i]) || !cells.box.contains(points[i]);
-  }
-  return cells;
+  const PlaneObstacles united{node_polygons(framed(obstacles), execution).polygons, {}, std::nullopt};
+  return decomposed(united, points, Overlaps::united, execution);
 }
 
 CellPlace locate(const CellDecomposition& cells, const PlaneObstacles& obstacles, Vec2 p) {

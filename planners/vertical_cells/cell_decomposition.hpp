@@ -109,7 +109,7 @@ struct CellDecomposition {
 };
 
 /// Decomposes the free part of the bounds; without bounds, of the obstacles' box; without obstacles, of the points'
-/// box. Locates the points on the way. Polygons and walls outside the bounds are left out; walls of length zero too.
+/// box. Then locates the points. Polygons and walls outside the bounds are left out; walls of length zero too.
 /// Throws ObstacleClash; InputError for 2^31 corners and more; Stopped at the deadline.
 CellDecomposition decompose(const PlaneObstacles& obstacles, std::span<const Vec2> points, const Execution& execution);
 
@@ -119,9 +119,8 @@ CellDecomposition decompose(const PlaneObstacles& obstacles, std::span<const Vec
 CellDecomposition decompose_united(const PlaneObstacles& obstacles, std::span<const Vec2> points,
                                    const Execution& execution);
 
-/// Where points lie among vertical cells that are there already: the answer that the sweep gives for points that it is
-/// asked about on its way (CellPlace), without sweeping again. Every decision is exact. O(cells + corners) a point, a
-/// comparison or two for most of them. `cells` are those of decompose() for the same obstacles.
+/// Where a point lies among vertical cells. Every decision is exact. O(cells + corners), a comparison or two for most
+/// of them. `cells` are those of decompose() for the same obstacles.
 CellPlace locate(const CellDecomposition& cells, const PlaneObstacles& obstacles, Vec2 p);
 
 /// Is the cell one between the box's side and a segment on it where nobody can move? That is so for the bounds, which

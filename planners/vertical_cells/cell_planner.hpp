@@ -88,11 +88,9 @@ Solution<Vec2> plan_through_cells(const PlaneObstacles& obstacles, Vec2 start, V
                                   const Execution& execution, CellPlan* keep = nullptr);
 
 /// What of a plan depends on neither start nor goal. Immutable; any number of threads may plan on it.
-struct CellRoadmap {
+struct CellRoadmap : NotCopied {
   /// Throws as decompose().
   CellRoadmap(PlaneObstacles plane, const Execution& execution);
-  CellRoadmap(const CellRoadmap&) = delete;
-  CellRoadmap& operator=(const CellRoadmap&) = delete;
 
   const PlaneObstacles obstacles;  ///< that the cells lie between
   const CellDecomposition cells;   ///< all of them

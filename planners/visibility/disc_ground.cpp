@@ -10,8 +10,6 @@
 namespace warren {
 namespace {
 
-constexpr std::size_t circles_per_poll = 4096;
-
 Vec2 unit_of(Vec2 v) { return (1.0 / norm(v)) * v; }
 
 DiscCircle circle_around(const VisibleCorners& corners, VertexId v) {
@@ -47,7 +45,7 @@ DiscGround::DiscGround(const PlaneObstacles& obstacles, const Execution& executi
   for (std::uint32_t i = 0; i < pieces.pieces().size(); ++i) segments.push_back(pieces.segment(i));
   circle_of.assign(corners.size(), no_vertex);
   for (VertexId v = 0; v < corners.size(); ++v) {
-    if (v % circles_per_poll == 0) execution.check();
+    execution.poll(v);
     if (!corners.is_reflex(v)) continue;
     circle_of[v] = static_cast<std::uint32_t>(circles.size());
     circles.push_back(circle_around(corners, v));

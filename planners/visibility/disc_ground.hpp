@@ -54,11 +54,9 @@ struct DiscGround {
 
 /// A ground, and which corners see each other, for questions that are many: the discs' radius, start and goal are each
 /// question's own. Immutable; any number of threads may plan on it.
-struct DiscRoadmap {
+struct DiscRoadmap : NotCopied {
   /// Throws as VisibilityGraph; `known`: its graph, where that is there already.
   DiscRoadmap(const PlaneObstacles& obstacles, const Execution& execution, std::optional<Graph> known = {});
-  DiscRoadmap(const DiscRoadmap&) = delete;
-  DiscRoadmap& operator=(const DiscRoadmap&) = delete;
 
   const DiscGround ground;
   const VisibilityGraph graph;  ///< refers to the ground's corners

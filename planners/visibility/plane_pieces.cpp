@@ -16,7 +16,6 @@ namespace warren {
 namespace {
 
 constexpr std::size_t pieces_a_look = 1 << 14;
-constexpr std::size_t looks_per_poll = 1 << 12;  // exact predicates can take microseconds
 
 /// All sides and walls as segments between numbered points, as they are given.
 struct Sides {
@@ -141,7 +140,7 @@ RawVector<PlanePieces::Cut> PlanePieces::cuts_of(std::span<const Segment> segmen
   for (std::size_t p = 0; p < points_.size(); ++p) {
     const Vec2 at = points_[p];
     for (const std::uint32_t i : grid.in_cell(grid.cell_of(at))) {
-      if (++looks % looks_per_poll == 0) execution.check();
+      execution.poll(++looks);  // exact predicates can take microseconds
       if (segments[i].a == at || segments[i].b == at || !on_segment(at, segments[i])) continue;
       push_asked(cuts, {i, static_cast<PointId>(p)}, execution);
     }

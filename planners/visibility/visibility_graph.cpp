@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/base/items_by_key.hpp"
 #include "core/plane/geometry.hpp"
 #include "parallel/asked_memory.hpp"
 #include "parallel/chunks.hpp"
@@ -27,90 +28,58 @@ PlaceRange range_of(Vec2 at, const Sector& sector) {
   return apart < doubt || apart > 4.0 - doubt ? all_round : range;
 }
 
-/// Of some vertices in a row: the neighbours above each.
-struct Rows {
-  RawVector<VertexId> targets;
-  RawVector<EdgeEnd> degrees;
-};
-
 /// Vertices a chunk: few enough to share the work, enough to pay for a chunk's scratch, which is O(n).
 std::size_t grain_for(std::size_t vertices) { return std::clamp<std::size_t>(vertices / 256, 16, 1024); }
 
-std::vector<Rows> rows_above(const VisibleCorners& corners, VisibilityEdges which, const Execution& execution) {
+/// Of each chunk's vertices in a row the neighbours above, ascending, and no_vertex behind them.
+std::vector<RawVector<VertexId>> rows_above(const VisibleCorners& corners, VisibilityEdges which,
+                                            const Execution& execution) {
   return parts_of_chunks(corners.size(), grain_for(corners.size()), execution, [&](Range r) {
     CornerSight sight(corners, execution);
     std::vector<VertexId> seen;
-    Rows part;
+    RawVector<VertexId> part;
     for (std::size_t v = r.first; v < r.last; ++v) {
       execution.check();
       sight.above_vertex(static_cast<VertexId>(v), which, seen);
-      part.targets.insert(part.targets.end(), seen.begin(), seen.end());
-      part.degrees.push_back(static_cast<EdgeEnd>(seen.size()));
+      seen.push_back(no_vertex);
+      part.insert(part.end(), seen.begin(), seen.end());
     }
-    execution.reserve(part.targets.size() * sizeof(VertexId));
+    execution.reserve(part.size() * sizeof(VertexId));
     return part;
   });
 }
 
-/// Calls visit(v, w) for all v, ascending, and the neighbours w above it, ascending.
-template <class Visit>
-void for_each_pair(const std::vector<Rows>& parts, const Execution& execution, const Visit& visit) {
-  VertexId v = 0;
-  for (const Rows& part : parts) {
-    auto target = part.targets.begin();
-    for (const EdgeEnd degree : part.degrees) {
-      if (v % 16 == 0) execution.check();
-      for (const auto end = target + degree; target != end; ++target) visit(v, *target);
-      ++v;
-    }
-  }
-}
-
-/// Where each vertex's row begins, and where the part of it begins that lies above.
-struct RowBorders {
-  RawVector<EdgeEnd> first;
-  RawVector<EdgeEnd> above;
-};
-
-RowBorders row_borders(std::size_t n, const std::vector<Rows>& parts, const Execution& execution) {
-  std::vector<std::uint32_t> below(n, 0);
-  for_each_pair(parts, execution, [&](VertexId, VertexId w) { ++below[w]; });
-  RowBorders borders;
-  borders.first.reserve(n + 1);
-  borders.above.reserve(n);
+/// Each edge was found at its lower end: writes it into both rows, those below before those above, and merges these.
+Graph graph_of_rows(std::size_t n, std::vector<RawVector<VertexId>>& parts, const Execution& execution) {
   std::uint64_t ends = 0;
-  for (const Rows& part : parts) {
-    for (const EdgeEnd degree : part.degrees) {
-      borders.first.push_back(static_cast<EdgeEnd>(ends));
-      ends += below[borders.above.size()];
-      borders.above.push_back(static_cast<EdgeEnd>(ends));
-      ends += degree;
+  for (const RawVector<VertexId>& part : parts) ends += 2 * part.size();
+  ends -= 2 * n;
+  if (ends > std::numeric_limits<EdgeEnd>::max()) throw InputError("visibility graph", "more than 2^32 - 1 edge ends");
+  execution.reserve(ends * sizeof(VertexId));
+  const auto each_pair = [&](const auto& visit) {
+    VertexId v = 0;
+    for (const RawVector<VertexId>& part : parts) {
+      for (const VertexId w : part) {
+        if (w != no_vertex) {
+          visit(v, w);
+        } else if (++v % 16 == 0) {
+          execution.check();
+        }
+      }
     }
-    if (ends > std::numeric_limits<EdgeEnd>::max())
-      throw InputError("visibility graph", "more than 2^32 - 1 edge ends");
-  }
-  borders.first.push_back(static_cast<EdgeEnd>(ends));
-  return borders;
-}
-
-/// Each edge was found at its lower end: writes it into both rows, and sorts these.
-Graph graph_of_rows(std::size_t n, std::vector<Rows>& parts, const Execution& execution) {
-  RowBorders borders = row_borders(n, parts, execution);
-  execution.reserve(borders.first[n] * sizeof(VertexId));
-  RawVector<VertexId> targets(borders.first[n]);
-  touch_first(targets, execution);
-  std::vector<EdgeEnd> below(borders.first.begin(), borders.first.end() - 1);
-  std::vector<EdgeEnd> above(borders.above.begin(), borders.above.end());
-  for_each_pair(parts, execution, [&](VertexId v, VertexId w) {
-    targets[above[v]++] = w;
-    targets[below[w]++] = v;
-  });
+  };
+  const auto each_end = [&](const auto& visit) {
+    each_pair([&](VertexId v, VertexId w) { visit(w, v); });
+    each_pair(visit);
+  };
+  ItemsByKey rows = items_by_key(n, each_end, [&] { execution.check(); });
   parts.clear();
   for_each_index(n, 1024, execution, [&](std::size_t v) {
-    std::inplace_merge(targets.begin() + borders.first[v], targets.begin() + borders.above[v],
-                       targets.begin() + borders.first[v + 1]);
+    const auto first = rows.items.begin() + rows.first[v];
+    const auto last = rows.items.begin() + rows.first[v + 1];
+    std::inplace_merge(first, std::is_sorted_until(first, last), last);
   });
-  return Graph(std::move(borders.first), std::move(targets));
+  return {std::move(rows.first), std::move(rows.items)};
 }
 
 }  // namespace
@@ -262,7 +231,7 @@ VisibilityGraph::VisibilityGraph(const VisibleCorners& corners, VisibilityEdges 
     : corners_(corners), which_(edges), positions_(corners.size()) {
   for (VertexId v = 0; v < positions_.size(); ++v) positions_[v] = corners.position(v);
   if (!known) {
-    std::vector<Rows> parts = rows_above(corners, which_, execution);
+    std::vector<RawVector<VertexId>> parts = rows_above(corners, which_, execution);
     known = graph_of_rows(positions_.size(), parts, execution);
   }
   graph_ = std::move(*known);

@@ -40,12 +40,10 @@ Solution<Vec2> confined_visibility_path(const PlaneObstacles& obstacles, Vec2 st
                                         PlannedRoadmap<Vec2>* keep = nullptr);
 
 /// What of such a confined plan depends on neither start nor goal. Immutable; any number of threads may plan on it.
-struct VisibilityRoadmap {
+struct VisibilityRoadmap : NotCopied {
   /// Throws as VisibilityGraph; `known`: its graph, where that is there already.
   VisibilityRoadmap(const PlaneObstacles& obstacles, VisibilityEdges edges, const Execution& execution,
                     std::optional<Graph> known = {});
-  VisibilityRoadmap(const VisibilityRoadmap&) = delete;
-  VisibilityRoadmap& operator=(const VisibilityRoadmap&) = delete;
 
   const Box box;  ///< that confines the point; empty: none does
   const VisibleCorners corners;

@@ -6,6 +6,8 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,6 +27,17 @@ DhTable read_dh_table(const InputFile& file, const Execution& execution);
 /// neighbour. A held joint that the group moves, or that follows another one, is not held: the group or that one says
 /// where it is. Throws ReadError, InputError naming file and line, Stopped.
 ArmModel read_urdf(const ArmFiles& files, const Execution& execution);
+
+/// Where the frame of a link is in that of the robot's root.
+struct LinkFrame {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< where `open` is empty
+  std::string moves_with = {};                             ///< the last joint above it that can move; empty: none
+  std::string open = {};                                   ///< a joint above it that nobody holds; empty: none
+};
+
+/// By the names of links, with the root as the SRDF's virtual joint calls it, too. Joints are where `held` says, and
+/// those that mimic one where it takes them. Throws ReadError, InputError naming file and line, Stopped.
+std::map<std::string, LinkFrame> read_link_frames(const ArmFiles& files, const Execution& execution);
 
 /// Triangles and their corners, each point once, in the order of their coordinates; those of no triangle are left out,
 /// but where there are no triangles at all.
@@ -50,13 +63,19 @@ std::string hull_excess(const Mesh& mesh, const Solid& hull, const Execution& ex
 /// Does it look like a scene? By keys at the begin of lines, in a file that ends in .yaml or .yml anywhere.
 bool is_moveit_scene(std::string_view name, std::string_view bytes);
 
-/// What joints are at is held, and the start until a request says another. Throws InputError naming file and line,
-/// Stopped.
-Scene read_moveit_scene(const InputFile& file, const Execution& execution);
+/// Frames that poses in MoveIt's files stand in, beside that of the robot's root.
+struct MoveItFrames {
+  std::optional<ArmFiles> robot = {};                   ///< whose links have frames; none: these are refused
+  std::map<std::string, Eigen::Isometry3d> named = {};  ///< that a scene names, in the root's: for its request, too
+};
+
+/// What joints are at is held, and the start until a request says another. Frames that it names join *frames. Throws
+/// InputError naming file and line, ReadError for the robot's files, Stopped.
+Scene read_moveit_scene(const InputFile& file, const Execution& execution, MoveItFrames* frames = nullptr);
 
 /// Start and goal of the scene become those of the request, and so do group, tool and held joints, in the world's line
 /// of the robot, too; the group only where that has an SRDF. What the request attaches takes the place of what had its
-/// id. Throws as above.
-void take_moveit_request(Scene& scene, const InputFile& file, const Execution& execution);
+/// id. Without a robot in `frames` that of the world's line counts. Throws as above.
+void take_moveit_request(Scene& scene, const InputFile& file, const Execution& execution, MoveItFrames frames = {});
 
 }  // namespace warren

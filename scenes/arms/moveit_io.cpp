@@ -4,15 +4,20 @@
 // URDF is named beside them, and joints are known by their names alone.
 //
 // Of a scene: the primitives box, sphere and cylinder of collision objects and attached ones, meshes as their convex
-// hulls, the matrix of allowed collisions, the state of the joints. Cones, planes and octomaps are refused, and frames
-// of links. Of a request: group, start, goals by joints or one by a pose. Its workspace and its planner are left out,
-// constraints on the way are refused. Tolerances are left out: a goal is met as it stands.
+// hulls, the matrix of allowed collisions, the state of the joints. Cones, planes and octomaps are refused. Of a
+// request: group, start, goals by joints or one by a pose. Its workspace and its planner are left out, constraints on
+// the way are refused. Tolerances are left out: a goal is met as it stands.
+//
+// Poses become those in the frame of the robot's root. A frame is, as in MoveIt, the first of these that has its name:
+// a link, an object that is read before or one of its subframes, a fixed frame. In a link's frame an object stands
+// where the scene's state has the link; a goal would move with it, and is refused unless the link is fixed to the root.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -45,9 +50,11 @@ struct PoseNumbers {
   }
 };
 
-PoseNumbers joined(const PoseNumbers& outer, const PoseNumbers& inner) {
-  if (outer.is_identity()) return inner;
-  const Eigen::Isometry3d whole = outer.pose() * inner.pose();
+bool is_identity(const Eigen::Isometry3d& pose) { return pose.matrix() == Eigen::Matrix4d::Identity(); }
+
+PoseNumbers joined(const Eigen::Isometry3d& outer, const PoseNumbers& inner) {
+  if (is_identity(outer)) return inner;
+  const Eigen::Isometry3d whole = outer * inner.pose();
   const Vec3 at = whole.translation();
   return {{at.x(), at.y(), at.z()}, quaternion_of_turn(whole.linear())};
 }
@@ -55,9 +62,10 @@ PoseNumbers joined(const PoseNumbers& outer, const PoseNumbers& inner) {
 /// Scenes and requests: nodes as what they should be, and what they say of the scene. Each error names its line.
 class MoveItReader {
  public:
-  /// What is read goes into the scene.
-  MoveItReader(Scene& scene, const InputFile& file, std::string_view what, const Execution& execution)
-      : scene_(scene), yaml_(file, what, most_mebibytes, execution), execution_(execution) {}
+  /// What is read goes into the scene and the frames.
+  MoveItReader(Scene& scene, MoveItFrames& frames, const InputFile& file, std::string_view what,
+               const Execution& execution)
+      : scene_(scene), frames_(frames), yaml_(file, what, most_mebibytes, execution), execution_(execution) {}
 
   void read_scene() {
     const Node& root = yaml_.root();
@@ -72,14 +80,10 @@ class MoveItReader {
     const Node octomap = at(at(stamped, "octomap"), "data");
     if (octomap.IsScalar() ? !octomap.Scalar().empty() : octomap.size() > 0)
       yaml_.fail(at(world, "octomap"), "octomaps are not read");
-    for_each(root, "fixed_frame_transforms", [&](const Node& frame) {
-      expect_keys(frame, "a fixed frame", {"header", "child_frame_id", "transform"});
-      const bool same = pose(needed(frame, "transform"), "translation", "rotation").is_identity();
-      if (!same) yaml_.fail(frame, "frames must stand at 0 0 0: what is in them would be elsewhere");
-      if (const Node child = at(frame, "child_frame_id"); child.IsScalar()) know_frame(child.Scalar());
-      know_frame(frame_name(frame));
-    });
-    take_state(at(root, "robot_state"));
+    const Node state = at(root, "robot_state");
+    take_state(state);
+    for (const bool is_apart : {false, true}) take_fixed_frames(root, is_apart);
+    take_all_attached(state);
     for_each(world, "collision_objects", [&](const Node& object) { take_object(object); });
     take_matrix(at(root, "allowed_collision_matrix"));
     refuse_sizes(root, "link_padding", "padding", 0.0);
@@ -107,6 +111,7 @@ class MoveItReader {
       }
     }
     take_state(at(root, "start_state"));
+    take_all_attached(at(root, "start_state"));
     const Node way = at(root, "path_constraints");
     expect_constraint(way);
     for (const char* key : kinds) {
@@ -207,9 +212,8 @@ class MoveItReader {
   /// A word, as a line of a scene holds it.
   std::string word(const Node& node, std::string_view key) const {
     const std::string text = node.IsScalar() ? node.Scalar() : "";
-    const bool plain = std::ranges::none_of(text, [](unsigned char c) { return c <= ' ' || c == ',' || c == '#'; });
-    if (text.empty() || !plain) yaml_.fail(node, fmt::format("`{}` must be a name without blanks, commas and #", key));
-    return text;
+    if (scene_text::is_word(text)) return text;
+    yaml_.fail(node, fmt::format("`{}` must be a name without blanks, commas and #", key));
   }
   bool truth(const Node& node, std::string_view key) const {
     const std::string text = node.IsScalar() ? node.Scalar() : "";
@@ -233,11 +237,13 @@ class MoveItReader {
     for_each(at(state, "multi_dof_joint_state"), "transforms", [&](const Node& base) {
       if (!pose(base, "translation", "rotation").is_identity()) yaml_.fail(base, "the arm's base must stand at 0 0 0");
     });
+  }
+  void take_all_attached(const Node& state) {
     for_each(state, "attached_collision_objects", [&](const Node& attached) { take_attached(attached); });
   }
-  /// A box, ball or cylinder, or a mesh's hull: take(solid) for each.
+  /// A box, ball or cylinder, or a mesh's hull: take(solid) for each. frame: what the object's pose is in.
   template <class Take>
-  void for_each_solid(const Node& object, const Take& take) const {
+  void for_each_solid(const Node& object, const Eigen::Isometry3d& frame, const Take& take) const {
     expect_keys(object, "a collision object",
                 {"header", "id", "pose", "type", "primitives", "primitive_poses", "meshes", "mesh_poses", "planes",
                  "plane_poses", "subframe_names", "subframe_poses", "operation"});
@@ -246,7 +252,7 @@ class MoveItReader {
     constexpr std::string_view zero("\0", 1);  // as ROS 2 prints a byte
     if (!operation.IsNull() && does != "0" && does != zero && does != "add" && does != "ADD")
       yaml_.fail(operation, "`operation` must be 0 or add: the objects that are there");
-    const PoseNumbers stand = pose(at(object, "pose"));
+    const Eigen::Isometry3d stand = joined(frame, pose(at(object, "pose"))).pose();
     for (const char* key : {"planes", "plane_poses"}) {
       if (count(object, key) > 0) yaml_.fail(at(object, key), "planes are not read: a box does instead");
     }
@@ -265,7 +271,10 @@ class MoveItReader {
     each("meshes", "mesh_poses", [&](const Node& n, const PoseNumbers& p) { return mesh(n, p); });
   }
 
-  void know_frame(const std::string& name) { root_frames_.insert(name); }
+  /// Of the root's frame.
+  void know_frame(const std::string& name) {
+    if (!name.empty()) frames_.named.emplace(name, Eigen::Isometry3d::Identity());
+  }
   std::string frame_name(const Node& posed) const {
     const Node header = at(posed, "header");
     expect_keys(header, "a header", {"seq", "stamp", "frame_id"});
@@ -273,12 +282,76 @@ class MoveItReader {
     if (!name.IsNull() && !name.IsScalar()) yaml_.fail(name, "`frame_id` must be a name");
     return name.IsScalar() ? name.Scalar() : "";
   }
-  /// Poses are read in the frame of the robot's root; where another one is nobody knows before the robot's state.
-  void check_frame(const Node& posed) const {
-    if (root_frames_.contains(frame_name(posed))) return;
+  /// nullptr: nobody names the robot. Asked once it is known where joints are.
+  const std::map<std::string, LinkFrame>* links() {
+    if (!frames_.robot) return nullptr;
+    if (links_.empty()) {
+      ArmFiles robot = *frames_.robot;
+      if (scene_.arm) robot.held.insert(robot.held.begin(), scene_.arm->held.begin(), scene_.arm->held.end());
+      links_ = read_link_frames(robot, execution_);
+    }
+    return &links_;
+  }
+  std::optional<LinkFrame> known_frame(const std::string& name) {
+    if (name.empty()) return LinkFrame{};
+    if (const auto* const all = links(); all != nullptr && all->contains(name)) return all->at(name);
+    if (const auto found = frames_.named.find(name); found != frames_.named.end())
+      return LinkFrame{.pose = found->second};
+    return name == "world" ? std::optional(LinkFrame{}) : std::nullopt;
+  }
+  bool is_root(const std::string& name) {
+    const auto frame = known_frame(name);
+    return !name.empty() && frame && frame->moves_with.empty() && is_identity(frame->pose);
+  }
+  LinkFrame frame_of(const Node& posed) {
+    if (auto frame = known_frame(frame_name(posed))) return std::move(*frame);
     yaml_.fail(at(at(posed, "header"), "frame_id"),
-               "poses are read in the frame of the robot's root: give this one in it, with `frame_id` \"\" or world; "
-               "a scene may name the root's frame in one of `fixed_frame_transforms` at 0 0 0");
+               "nobody says where this frame is: poses are in \"\", world, one of the scene's `fixed_frame_transforms` "
+               "or objects before, or a link of the robot that `--robot \"urdf FILE\"` names beside the scene");
+  }
+  /// Where the frame of an object stands in that of the root, or of a goal, which the arm may not move.
+  Eigen::Isometry3d frame_in_root(const Node& posed, bool of_goal = false) {
+    const LinkFrame frame = frame_of(posed);
+    const std::string& joint = of_goal ? frame.moves_with : frame.open;
+    if (joint.empty()) return frame.pose;
+    yaml_.fail(at(at(posed, "header"), "frame_id"),
+               fmt::format("this link moves with joint {}; {}", joint,
+                           of_goal ? "give the goal in a frame that stands still"
+                                   : "the scene's `joint_state` must say where that is"));
+  }
+  /// The frame of what the link carries, in the link's.
+  Eigen::Isometry3d frame_on_link(const std::string& link, const Node& object) {
+    const std::string name = frame_name(object);
+    if (name.empty() || name == link) return Eigen::Isometry3d::Identity();
+    if (const auto* const all = links(); all != nullptr && all->contains(link)) {
+      const LinkFrame& carrier = all->at(link);
+      const LinkFrame frame = frame_of(object);
+      if (carrier.moves_with == frame.moves_with || (carrier.open.empty() && frame.open.empty()))
+        return carrier.pose.inverse() * frame.pose;
+    }
+    yaml_.fail(at(at(object, "header"), "frame_id"),
+               fmt::format("what is attached must be in the frame {0}, or in one that the robot, named by `--robot`, "
+                           "and `joint_state` place against {0}",
+                           link));
+  }
+  /// Those at 0 0 0, which name the frame of the root, or those apart from it: as MoveIt has them, not as tf does, from
+  /// the header's frame into the child's.
+  void take_fixed_frames(const Node& root, bool is_apart) {
+    for_each(root, "fixed_frame_transforms", [&](const Node& frame) {
+      expect_keys(frame, "a fixed frame", {"header", "child_frame_id", "transform"});
+      const PoseNumbers place = pose(needed(frame, "transform"), "translation", "rotation");
+      if (place.is_identity() == is_apart) return;
+      const std::string name = frame_name(frame);
+      const Node child = at(frame, "child_frame_id");
+      const std::string to = child.IsScalar() ? child.Scalar() : "";
+      if (is_apart && (name.empty() || name == to || frames_.named.contains(name) || !is_root(to))) {
+        yaml_.fail(frame,
+                   "`transform` is where the frame of `header` stands in that of `child_frame_id`, which must be the "
+                   "robot's root: world, its first link, or one that another fixed frame at 0 0 0 names");
+      }
+      know_frame(to);
+      if (!name.empty()) frames_.named.emplace(name, place.pose());
+    });
   }
 
   ArmFiles& arm() const { return scene_.arm ? *scene_.arm : scene_.arm.emplace(); }
@@ -313,8 +386,7 @@ class MoveItReader {
     std::vector<std::string> touched;
     for_each(attached, "touch_links", [&](const Node& n) { touched.push_back(word(n, "touch_links")); });
     const Node object = needed(attached, "object");
-    if (const std::string frame = frame_name(object); !frame.empty() && frame != link)
-      yaml_.fail(at(at(object, "header"), "frame_id"), fmt::format("what is attached must be in the frame {}", link));
+    const Eigen::Isometry3d frame = frame_on_link(link, object);
     std::vector<AttachedSolid>& all = arm().attached;
     const Node id = at(object, "id");
     const std::string name = id.IsScalar() ? id.Scalar() : "";
@@ -326,7 +398,7 @@ class MoveItReader {
     });
     if (count(object, "primitives") + count(object, "meshes") == 0)
       yaml_.place(object).fail("what is attached needs its shapes here: `primitives` or `meshes`");
-    for_each_solid(object, [&](Solid solid) { push_asked(all, {link, std::move(solid), touched}, execution_); });
+    for_each_solid(object, frame, [&](Solid solid) { push_asked(all, {link, std::move(solid), touched}, execution_); });
   }
   Solid primitive(const Node& shape, const PoseNumbers& pose) const {
     expect_keys(shape, "a primitive", {"type", "dimensions", "polygon"});
@@ -374,15 +446,32 @@ class MoveItReader {
     });
   }
   void take_object(const Node& object) {
-    if (const Node id = at(object, "id"); id.IsScalar()) ids_.insert(id.Scalar());
-    check_frame(object);
-    for_each_solid(object, [&](Solid solid) {
+    const Eigen::Isometry3d frame = frame_in_root(object);
+    for_each_solid(object, frame, [&](Solid solid) {
       if (solid.kind == SolidKind::sphere) {
         const Vec3 at = solid.pose.translation();
         push_asked(scene_.spheres, {at.x(), at.y(), at.z(), solid.half.x()}, execution_);
       } else {
         push_asked(scene_.solids, std::move(solid), execution_);
       }
+    });
+    if (const Node id = at(object, "id"); id.IsScalar()) name_frames(id.Scalar(), object, frame);
+  }
+  /// Of an object, where it has one shape and no pose that of the shape, and its subframes.
+  void name_frames(const std::string& id, const Node& object, const Eigen::Isometry3d& frame) {
+    ids_.insert(id);
+    PoseNumbers own = pose(at(object, "pose"));
+    const bool is_mesh = count(object, "primitives") == 0;
+    if (own.is_identity() && count(object, "primitives") + count(object, "meshes") == 1)
+      own = pose(at(object, is_mesh ? "mesh_poses" : "primitive_poses")[0]);
+    const Eigen::Isometry3d stand = joined(frame, own).pose();
+    frames_.named.insert_or_assign(id, stand);
+    const Node names = items(object, "subframe_names");
+    if (names.size() != count(object, "subframe_poses"))
+      yaml_.place(object).fail("`subframe_poses` must have as many items as `subframe_names`");
+    std::size_t i = 0;
+    for_each(object, "subframe_poses", [&](const Node& place) {
+      frames_.named.insert_or_assign(id + "/" + names[i++].Scalar(), joined(stand, pose(place)).pose());
     });
   }
   /// As MoveIt reads it: what stands above the diagonal; defaults where there is no entry, false before true.
@@ -449,7 +538,7 @@ class MoveItReader {
   void expect_constraint(const Node& node) const {
     expect_keys(node, "constraints", {"name", kinds[0], kinds[1], kinds[2], kinds[3]});
   }
-  void take_goal(const Node& goal) const {
+  void take_goal(const Node& goal) {
     expect_constraint(goal);
     if (count(goal, kinds[3]) > 0) yaml_.fail(at(goal, kinds[3]), "`visibility_constraints` are not kept");
     if (count(goal, kinds[0]) > 0) {
@@ -479,10 +568,10 @@ class MoveItReader {
     expect_keys(region, "a region", {"primitives", "primitive_poses", "meshes", "mesh_poses"});
     if (count(region, "meshes") > 0 || count(region, "primitive_poses") != 1)
       yaml_.fail(region, "a place needs one of `primitive_poses`");
-    check_frame(place);
+    const Eigen::Isometry3d frame = frame_in_root(place, true);
     const Node middle = at(region, "primitive_poses")[0];
     expect_keys(middle, "a pose", {"position", "orientation"});
-    PoseNumbers pose{.at = numbers<3>(needed(middle, "position"), "position")};
+    PoseNumbers pose = joined(frame, {.at = numbers<3>(needed(middle, "position"), "position")});
     if (count(goal, kinds[2]) == 0) {
       scene_.goal.assign(pose.at.begin(), pose.at.end());
       return;
@@ -491,8 +580,8 @@ class MoveItReader {
     expect_keys(turned, "an orientation",
                 {"header", "orientation", "link_name", "absolute_x_axis_tolerance", "absolute_y_axis_tolerance",
                  "absolute_z_axis_tolerance", "parameterization", "weight"});
-    check_frame(turned);
-    pose.turn = quaternion(needed(turned, "orientation"), "orientation");
+    const Eigen::Isometry3d turned_frame = frame_in_root(turned, true);
+    pose.turn = joined(turned_frame, {.turn = quaternion(needed(turned, "orientation"), "orientation")}).turn;
     scene_.goal_pose = pose.pose();
   }
   void take_joint_goal(const Node& goal) const {
@@ -509,17 +598,18 @@ class MoveItReader {
   }
 
   Scene& scene_;
+  MoveItFrames& frames_;
   YamlFile yaml_;
   const Execution& execution_;
-  std::set<std::string> root_frames_{"", "world"};  ///< names of the root's frame
-  std::set<std::string> ids_;                       ///< of the world's objects
+  std::map<std::string, LinkFrame> links_;  ///< of the robot; empty: not read yet
+  std::set<std::string> ids_;               ///< of the world's objects
 };
 
 /// read: one of MoveItReader's. yaml-cpp's own words for a node that is not what its reader takes it for.
-void read_moveit(Scene& scene, const InputFile& file, std::string_view what, void (MoveItReader::*read)(),
-                 const Execution& execution) {
+void read_moveit(Scene& scene, MoveItFrames& frames, const InputFile& file, std::string_view what,
+                 void (MoveItReader::*read)(), const Execution& execution) {
   try {
-    (MoveItReader(scene, file, what, execution).*read)();
+    (MoveItReader(scene, frames, file, what, execution).*read)();
   } catch (const YAML::Exception& error) {
     throw InputError(file.name(), "expected YAML of MoveIt: " + error.msg);
   }
@@ -542,15 +632,18 @@ bool is_moveit_scene(std::string_view name, std::string_view bytes) {
   return false;
 }
 
-Scene read_moveit_scene(const InputFile& file, const Execution& execution) {
+Scene read_moveit_scene(const InputFile& file, const Execution& execution, MoveItFrames* frames) {
   Scene scene;
-  read_moveit(scene, file, "a planning scene of MoveIt", &MoveItReader::read_scene, execution);
+  MoveItFrames own;
+  MoveItFrames& known = frames != nullptr ? *frames : own;
+  read_moveit(scene, known, file, "a planning scene of MoveIt", &MoveItReader::read_scene, execution);
   scene.source = file.name();
   return scene;
 }
 
-void take_moveit_request(Scene& scene, const InputFile& file, const Execution& execution) {
-  read_moveit(scene, file, "a request of MoveIt", &MoveItReader::read_request, execution);
+void take_moveit_request(Scene& scene, const InputFile& file, const Execution& execution, MoveItFrames frames) {
+  if (!frames.robot && scene.robot) frames.robot = scene.robot->files;
+  read_moveit(scene, frames, file, "a request of MoveIt", &MoveItReader::read_request, execution);
 }
 
 }  // namespace warren

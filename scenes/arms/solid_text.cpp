@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "parallel/asked_memory.hpp"
 #include "scenes/scene/convex_hull.hpp"
 
 namespace warren {
@@ -144,9 +145,15 @@ Solid solid_of_numbers(const SolidWord& word, std::span<const double> numbers, c
   return solid;
 }
 
-Solid read_solid(const SolidWord& word, scene_text::Fields& fields, const Execution& execution) {
+Solid read_solid(const SolidWord& word, scene_text::Fields& fields, const Execution& execution, bool may_have_name) {
   std::vector<double> numbers;
-  scene_text::read_numbers(fields, numbers, execution);
+  const auto ends = [&] {
+    return fields.done() || (may_have_name && !fields.number_follows() && scene_text::Fields(fields).word() == "as");
+  };
+  while (!ends()) {
+    push_asked(numbers, fields.number(), execution);
+    execution.poll(numbers.size());
+  }
   const bool right = word.numbers > 0 ? numbers.size() == word.numbers : !numbers.empty() && numbers.size() % 3 == 0;
   if (!right) {
     fields.place().fail(fmt::format("expected `{}`", word.usage), scene_text::numbers_text(numbers.size()));

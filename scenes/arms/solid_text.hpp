@@ -39,8 +39,10 @@ const SolidWord* solid_word_named(std::string_view name);
 Solid solid_of_numbers(const SolidWord& word, std::span<const double> numbers, const scene_text::Place& place,
                        const Execution& execution);
 
-/// Reads the numbers behind the word, to the line's end. Throws InputError, Stopped.
-Solid read_solid(const SolidWord& word, scene_text::Fields& fields, const Execution& execution);
+/// Reads the numbers behind the word, to the line's end or, where it may have a name, to an `as`. Throws InputError,
+/// Stopped.
+Solid read_solid(const SolidWord& word, scene_text::Fields& fields, const Execution& execution,
+                 bool may_have_name = false);
 
 /// Its line, which reads back as the same solid where it was read; else to the last digits.
 std::string solid_text(const Solid& solid);

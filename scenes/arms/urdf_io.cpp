@@ -152,6 +152,17 @@ class MeshShelf {
   std::map<std::pair<std::string, std::array<double, 3>>, Solid> hulls_;
 };
 
+/// Of what hangs on a joint that moves, from where it hangs while the joint's value is 0.
+Eigen::Isometry3d motion(const UrdfJoint& joint, double value) {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  if (joint.kind == UrdfJointKind::prismatic) {
+    pose.translation() = value * joint.axis;
+  } else {
+    pose.linear() = turn_about(joint.axis, value);
+  }
+  return pose;
+}
+
 /// Makes the model of a tree whose group is known.
 class ArmModelMaker {
  public:
@@ -332,15 +343,6 @@ class ArmModelMaker {
                                joint.offset});
     }
   }
-  static Eigen::Isometry3d motion(const UrdfJoint& joint, double value) {
-    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-    if (joint.kind == UrdfJointKind::prismatic) {
-      pose.translation() = value * joint.axis;
-    } else {
-      pose.linear() = turn_about(joint.axis, value);
-    }
-    return pose;
-  }
 
   /// Those with solids, the root first, then depth first.
   void add_links() {
@@ -512,6 +514,37 @@ ArmModel read_urdf(const ArmFiles& files, const Execution& execution) {
   const XmlFile* rules = srdf ? &*srdf : nullptr;
   const UrdfGroup group = chosen_group(files, tree, rules, execution);
   return ArmModelMaker(files, tree, group, execution).make(rules);
+}
+
+std::map<std::string, LinkFrame> read_link_frames(const ArmFiles& files, const Execution& execution) {
+  const InputFile file(files.urdf, execution);
+  const XmlFile xml(file, "robot", most_urdf_bytes, execution);
+  const UrdfTree tree(xml, execution);
+  const std::string& root = tree.links[tree.root].name;
+  std::map<std::string, LinkFrame> frames;
+  frames.emplace(root, LinkFrame{});
+  for (const UrdfJoint& joint : tree.joints) {
+    execution.check();
+    LinkFrame frame = frames.at(tree.links[joint.above].name);
+    frame.pose = frame.pose * joint.origin;
+    if (joint.moves()) {
+      const std::string& leader = joint.leader == no_urdf_part ? joint.name : tree.joints[joint.leader].name;
+      const auto held = std::ranges::find(files.held, leader, [](const auto& other) { return other.first; });
+      frame.moves_with = joint.name;
+      if (held != files.held.end()) {
+        frame.pose = frame.pose * motion(joint, joint.multiplier * held->second + joint.offset);
+      } else if (frame.open.empty()) {
+        frame.open = leader;
+      }
+    }
+    frames.emplace(tree.links[joint.below].name, std::move(frame));
+  }
+  if (files.srdf.empty()) return frames;
+  const InputFile srdf_file(files.srdf, execution);
+  const XmlFile srdf(srdf_file, "robot", most_urdf_bytes, execution);
+  const pugi::xml_node base = srdf.root().find_child_by_attribute("virtual_joint", "child_link", root.c_str());
+  if (base) frames.emplace(base.attribute("parent_frame").value(), LinkFrame{});
+  return frames;
 }
 
 }  // namespace warren

@@ -288,7 +288,7 @@ std::optional<MazeHint> size_of(std::span<const WallOf<T>> walls) {
 }
 
 /// With the row below the first.
-Range cell_rows(MazeHint maze, std::optional<TileRows> held) {
+Range cell_rows(MazeHint maze, std::optional<Range> held) {
   if (!held) return {0, maze.rows};
   const std::size_t first = held->first << CellBits::usual_side_log2;
   return {first > 0 ? first - 1 : 0, std::min<std::size_t>(maze.rows, held->last << CellBits::usual_side_log2)};
@@ -304,7 +304,7 @@ RawVector<std::uint8_t> empty_maze(Range rows, std::uint32_t cols, const Executi
 
 }  // namespace
 
-NpyMaze::NpyMaze(const InputFile& file, MazeHint maze, const Execution& execution, std::optional<TileRows> held)
+NpyMaze::NpyMaze(const InputFile& file, MazeHint maze, const Execution& execution, std::optional<Range> held)
     : array_(npy_walls(file)),
       maze_(maze),
       rows_(cell_rows(maze, held)),

@@ -21,7 +21,6 @@
 #include "parallel/chunks.hpp"
 #include "scenes/files/npy_io.hpp"
 #include "scenes/mazes/cell_bits.hpp"
-#include "scenes/mazes/spanning_maze.hpp"
 #include "scenes/scene/scene.hpp"
 #include "scenes/text/input_file_io.hpp"
 
@@ -70,7 +69,7 @@ class NpyMaze {
   /// maze: as unmade_maze() says; held: rows of tiles whose cells are kept, and the row of cells below them, of all
   /// that are looked at; none: all. Throws InputError for a wall off the grid, outside the outline or in one of its
   /// doors; Stopped.
-  NpyMaze(const InputFile& file, MazeHint maze, const Execution& execution, std::optional<TileRows> held = {});
+  NpyMaze(const InputFile& file, MazeHint maze, const Execution& execution, std::optional<Range> held = {});
   const CellBits& cells() const { return cells_; }
   std::size_t wall_count() const { return array_.walls; }
   /// scene_hash() of the scene with the walls.

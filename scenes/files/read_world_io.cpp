@@ -131,7 +131,7 @@ Scene empty_world(std::string_view source) {
   return scene;
 }
 
-Scene read_unchecked(const InputFile& file, const Execution& execution, MapServerRules rules) {
+Scene read_unchecked(const InputFile& file, const Execution& execution, MapServerRules rules, MoveItFrames* frames) {
   const WorldFormat format = format_of(file);
   if (format == WorldFormat::npy) return read_npy(file, execution);
   if (format == WorldFormat::maze) return read_maze_file(file, execution);
@@ -142,7 +142,7 @@ Scene read_unchecked(const InputFile& file, const Execution& execution, MapServe
   if (format == WorldFormat::moving_ai) return scene_of(read_moving_ai_map(file, execution));
   if (format == WorldFormat::ros_map) return scene_of(read_ros_map(file, execution, rules));
   if (format == WorldFormat::image) return scene_of(read_maze_image(file, execution));
-  return format == WorldFormat::moveit ? read_moveit_scene(file, execution) : read_scene_text(file, execution);
+  return format == WorldFormat::moveit ? read_moveit_scene(file, execution, frames) : read_scene_text(file, execution);
 }
 
 }  // namespace
@@ -179,11 +179,11 @@ bool is_made_source(std::string_view source) { return is_maze_source(source) || 
 
 MazeOptions parse_maze_source(std::string_view source) { return MazeSource(source).parse(); }
 
-Scene read_scene(const InputFile& file, const Execution& execution, MapServerRules rules) {
+Scene read_scene(const InputFile& file, const Execution& execution, MapServerRules rules, MoveItFrames* frames) {
   if (file.bytes().starts_with(roadmap_begin)) {
     throw InputError(file.name(), "is a roadmap where a world is expected; ask it by `warren query`");
   }
-  Scene scene = read_unchecked(file, execution, rules);
+  Scene scene = read_unchecked(file, execution, rules, frames);
   check_polygons(scene, execution);
   read_masks(scene.prices, execution);
   return scene;

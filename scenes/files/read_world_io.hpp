@@ -16,6 +16,8 @@
 
 namespace warren {
 
+struct MoveItFrames;  // scenes/arms/arm_files_io.hpp
+
 /// What a file of a world may be (docs/file_formats.md).
 enum class WorldFormat : std::uint8_t {
   scene,
@@ -46,8 +48,9 @@ MazeOptions parse_maze_source(std::string_view source);
 /// `rules` are for the maps of map_server alone.
 Scene read_world(const std::string& source, const Execution& execution = {},
                  MapServerRules rules = MapServerRules::nav2);
-/// The same for a file that is open already.
-Scene read_scene(const InputFile& file, const Execution& execution, MapServerRules rules = MapServerRules::nav2);
+/// The same for a file that is open already. frames: of poses in a scene of MoveIt, as read_moveit_scene() takes them.
+Scene read_scene(const InputFile& file, const Execution& execution, MapServerRules rules = MapServerRules::nav2,
+                 MoveItFrames* frames = nullptr);
 
 /// Writes .npy, .maze, .geojson, .wkt, or for .walls, .scene, .txt and "-" scene text. Throws UsageError for other
 /// endings, InputError for what the format can't hold, WriteError, Stopped.

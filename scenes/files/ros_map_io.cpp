@@ -279,7 +279,7 @@ OccupancyMap read_ros_map(const InputFile& yaml, const Execution& execution, Map
   return map;
 }
 
-MaskCells read_mask(const InputFile& yaml, const Execution& execution, MapServerRules rules) {
+MaskCells read_mask(const InputFile& yaml, const Execution& execution) {
   MaskCells mask;
   const auto begin = [&](const ImageHeader& header) {
     mask.width = header.width;
@@ -290,7 +290,7 @@ MaskCells read_mask(const InputFile& yaml, const Execution& execution, MapServer
   const auto take = [&](const PixelValues&, std::uint32_t x, std::uint32_t y, std::int8_t value, const std::uint16_t*) {
     mask.values[std::size_t{y} * mask.width + x] = value;
   };
-  read_values(yaml, rules, mask, begin, take, execution);
+  read_values(yaml, MapServerRules::nav2, mask, begin, take, execution);
   return mask;
 }
 

@@ -29,8 +29,8 @@ constexpr auto enum_names(MapServerRules) { return std::array<std::string_view, 
 OccupancyMap read_ros_map(const InputFile& yaml, const Execution& execution,
                           MapServerRules rules = MapServerRules::nav2);
 
-/// The same files as a mask: the values that a map server publishes. Throws as read_ros_map.
-MaskCells read_mask(const InputFile& yaml, const Execution& execution, MapServerRules rules = MapServerRules::nav2);
+/// The same files as a mask: the values that a map server of Nav2 publishes. Throws as read_ros_map.
+MaskCells read_mask(const InputFile& yaml, const Execution& execution);
 
 /// NAME.pgm, the image that write_ros_map writes beside NAME.yaml.
 std::string map_image_of(const std::string& yaml);

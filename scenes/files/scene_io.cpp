@@ -156,7 +156,8 @@ class SceneReader {
     std::string word = word_of(fields);
     const auto begins_solid = [&] { return solid_word_named(word) != nullptr && fields.number_follows(); };
     for (; !begins_solid(); word = word_of(fields)) attached.may_touch.push_back(word);
-    attached.solid = warren::read_solid(*solid_word_named(word), fields, execution_);
+    attached.solid = warren::read_solid(*solid_word_named(word), fields, execution_, true);
+    if (!fields.done() && word_of(fields) == "as") attached.solid.name = word_of(fields);
     note_link(arm(), attached.link, fields.place());
     for (const std::string& link : attached.may_touch) note_link(arm(), link, fields.place());
     push_asked(arm().attached, std::move(attached), execution_);
@@ -367,7 +368,7 @@ const std::array<SceneReader::Item, SceneReader::item_count> SceneReader::items 
     {"start", "start X Y [THETA] or six joint angles", true, &SceneReader::read_start},
     {"goal", "goal X Y [THETA] or six joint angles", true, &SceneReader::read_goal},
     {"grid", "grid CELL ANGLES", true, &SceneReader::read_grid},
-    {"attach", "attach LINK [MAY_TOUCH ...] sphere|box|obox|cylinder|capsule|hull NUMBERS", false,
+    {"attach", "attach LINK [MAY_TOUCH ...] sphere|box|obox|cylinder|capsule|hull NUMBERS [as NAME]", false,
      &SceneReader::read_attach},
     {"hold", "hold JOINT VALUE", false, &SceneReader::read_hold},
     {"allow", "allow LINK LINK", false, &SceneReader::read_allow},
@@ -450,7 +451,10 @@ void append_arm(std::string& text, const ArmFiles& arm) {
   for (const AttachedSolid& attached : arm.attached) {
     text += "attach " + attached.link;
     for (const std::string& link : attached.may_touch) text += ' ' + link;
-    text += ' ' + solid_text(attached.solid) + '\n';
+    text += ' ' + solid_text(attached.solid);
+    const std::string& name = attached.solid.name;  // which others may touch it by, where it is a word
+    if (scene_text::is_word(name)) text += " as " + name;
+    text += '\n';
   }
 }
 

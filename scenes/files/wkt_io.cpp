@@ -91,13 +91,13 @@ class Tokens {
     const char* begin = text_.data() + (text_.front() == '+' ? 1 : 0);
     const auto [end, error] = std::from_chars(begin, text_.data() + std::min(longest, text_.size()), value);
     if (end == text_.data() + longest) fail("a number of at most 65536 characters");
-    const bool tiny = error == std::errc::result_out_of_range && std::abs(value) < 1.0;
+    const std::size_t length = static_cast<std::size_t>(end - text_.data());
+    const bool tiny = error == std::errc::result_out_of_range && scene_text::rounds_to_zero(text_.substr(0, length));
     if ((error != std::errc() && !tiny) || !(std::abs(value) <= largest_coordinate))
       fail("a finite number of at most 1e60");
-    const std::size_t length = static_cast<std::size_t>(end - text_.data());
     const bool ends =
         length == text_.size() || is_wkt_space(*end) || std::string_view(",();").find(*end) != std::string_view::npos;
-    if (error == std::errc::invalid_argument || !ends) fail("a number");
+    if (!ends) fail("a number");
     text_.remove_prefix(length);
     return std::abs(value) < smallest_coordinate ? 0.0 : value;
   }

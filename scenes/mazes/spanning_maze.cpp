@@ -13,7 +13,6 @@
 #include "core/base/error.hpp"
 #include "core/base/raw_vector.hpp"
 #include "core/search/union_find.hpp"
-#include "parallel/chunks.hpp"
 
 namespace warren::maze {
 namespace {
@@ -474,7 +473,7 @@ void check_spanning_maze(std::uint32_t rows, std::uint32_t cols, double loops) {
 /// Goes through the levels of some rows of tiles and notes what is turned.
 class SpanningMaze::Builder {
  public:
-  Builder(SpanningMaze& maze, TileRows rows, KeptParts* kept, const Execution& execution)
+  Builder(SpanningMaze& maze, Range rows, KeptParts* kept, const Execution& execution)
       : maze_(maze), first_tile_(rows.first * maze.tile_cols()), kept_(kept), execution_(execution) {}
 
   RimPart run(std::size_t rows) {
@@ -632,7 +631,7 @@ SpanningMaze::SpanningMaze(std::uint32_t rows, std::uint32_t cols, std::uint64_t
   Builder(*this, {0, tile_rows}, kept, execution).run(tile_rows);
 }
 
-SpanningMaze::SpanningMaze(std::uint32_t rows, std::uint32_t cols, std::uint64_t seed, double loops, TileRows own,
+SpanningMaze::SpanningMaze(std::uint32_t rows, std::uint32_t cols, std::uint64_t seed, double loops, Range own,
                            RimPart& rim, const Execution& execution, unsigned side_log2)
     : CellWallSource(rows, cols, side_log2), seed_(seed), loops_(loops) {
   check_spanning_maze(rows, cols, loops);

@@ -34,6 +34,7 @@
 #include "core/base/rng.hpp"
 #include "core/plane/cell_walls.hpp"
 #include "core/run/execution.hpp"
+#include "parallel/chunks.hpp"
 
 namespace warren::maze {
 // The weights of the unit grid's edges, of which the algorithm mst makes mazes: a pure function of seed and edge, so
@@ -136,11 +137,6 @@ namespace warren {
 /// Throws InputError for sizes and loops that SpanningMaze does not take.
 void check_spanning_maze(std::uint32_t rows, std::uint32_t cols, double loops);
 
-/// Rows of tiles first .. last - 1.
-struct TileRows {
-  std::size_t first, last;
-};
-
 class SpanningMaze : public CellWallSource {
  public:
   /// Of rows and columns: the sides of the 64 parts that are joined last have fewer than 2^32 cells.
@@ -153,8 +149,8 @@ class SpanningMaze : public CellWallSource {
                unsigned side_log2 = 8, KeptParts* kept = nullptr);
   /// Some rows of tiles alone, at least one, whose tiles can be read when turn() was told what the rest of the maze
   /// makes of them. rim: receives what they say to it.
-  SpanningMaze(std::uint32_t rows, std::uint32_t cols, std::uint64_t seed, double loops, TileRows own,
-               maze::RimPart& rim, const Execution& execution, unsigned side_log2 = 8);
+  SpanningMaze(std::uint32_t rows, std::uint32_t cols, std::uint64_t seed, double loops, Range own, maze::RimPart& rim,
+               const Execution& execution, unsigned side_log2 = 8);
   /// Edges in which the whole differs from the tiles' trees (maze::JoinedParts), of the own tiles and those below.
   void turn(std::span<const std::uint64_t> edges);
   std::unique_ptr<CellWallReader> reader() const override;

@@ -47,18 +47,15 @@ double Fields::number() {
     place_.fail("expected numbers of at most 65536 characters", field);
   }
   if (last != begin + field.size() || error == std::errc::invalid_argument) place_.fail("expected a number", field);
-  if (error == std::errc::result_out_of_range) return out_of_range(field);
-  if (!std::isfinite(value)) place_.fail("numbers must be finite", field);
+  if (error == std::errc::result_out_of_range && rounds_to_zero(field)) return 0.0;
+  if (error == std::errc() && !std::isfinite(value)) place_.fail("numbers must be finite", field);
   place_.fail("numbers must not exceed 1e60 in magnitude", field);
 }
 
-/// A number that no double holds: too near to zero, which is read as zero, or too large.
-double Fields::out_of_range(std::string_view field) const {
-  const std::size_t exponent = field.find_first_of("eE");
-  const bool tiny = exponent != std::string_view::npos ? field.substr(exponent + 1).starts_with('-')
-                                                       : field.find_first_of("123456789") > field.find('.');
-  if (tiny) return 0.0;
-  place_.fail("numbers must not exceed 1e60 in magnitude", field);
+bool rounds_to_zero(std::string_view number) {
+  const std::size_t exponent = number.find_first_of("eE");
+  return exponent != std::string_view::npos ? number.substr(exponent + 1).starts_with('-')
+                                            : number.find_first_of("123456789") > number.find('.');
 }
 
 void read_numbers(Fields& fields, std::vector<double>& numbers, const Execution& execution) {

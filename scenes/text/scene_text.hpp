@@ -44,7 +44,16 @@ std::optional<T> number_in_full(std::string_view text) {
   return error == std::errc() && last == text.data() + text.size() ? std::optional(value) : std::nullopt;
 }
 
+/// Of a number that no double holds: is it too near to zero, not too large?
+bool rounds_to_zero(std::string_view number);
+
 inline bool is_blank(char c) { return c == ' ' || c == ',' || c == '\t' || c == '\r' || c == '\f' || c == '\v'; }
+
+/// May it stand in a line as one field?
+inline bool is_word(std::string_view text) {
+  const auto parts = [](unsigned char c) { return c <= ' ' || c == ',' || c == '#'; };
+  return !text.empty() && std::none_of(text.begin(), text.end(), parts);
+}
 
 /// Walks over the fields of one line. With an execution, runs of blanks or letters look at the deadline every 64 KiB.
 class Fields {
@@ -80,7 +89,6 @@ class Fields {
     skip_while(is_blank);
     if (at_ != end_ && *at_ == '#') at_ = end_;
   }
-  double out_of_range(std::string_view field) const;
 
   const char* at_;
   const char* end_;

@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -288,6 +290,8 @@ RecordedAnswer recorded(const Answer& answer) {
   RecordedAnswer record;
   static_cast<ClaimedPath&>(record) = answer;
   record.problem = answer.problem.question();
+  if (const auto& files = answer.problem.robot.files; files && files->read)
+    std::ranges::transform(files->read->variables, std::back_inserter(record.joints), &ArmVariable::name);
   record.via = answer.problem.via;
   record.world_hash = answer.world.hash;
   record.length = answer.length;
@@ -335,6 +339,21 @@ void check_state_width(const RecordedAnswer& answer, std::size_t width, std::str
   throw InputError(fmt::format("{}: key \"path\"", answer.file),
                    fmt::format("expected {} numbers a state for {}", width, body),
                    fmt::format("{} numbers in point 0", answer.state_width()));
+}
+
+bool names_other_joints(std::span<const std::string> named, std::span<const ArmVariable> joints) {
+  return !named.empty() && !std::ranges::equal(named, joints, {}, {}, &ArmVariable::name);
+}
+
+void check_joints(const RecordedAnswer& answer, std::span<const ArmVariable> joints) {
+  check_state_width(answer, joints.size(), "an arm");
+  if (!names_other_joints(answer.joints, joints)) return;
+  throw InputError(answer.file, "key \"joints\": the robot has other joints, or in another order");
+}
+
+void keep_to(RouteRule& route, const RecordedAnswer& answer) {
+  route.keep_to = states_of(answer);
+  route.joints = answer.joints;
 }
 
 void check_same_world(const RecordedAnswer& answer, const std::string& file, const Scene& scene,

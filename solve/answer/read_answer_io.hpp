@@ -59,6 +59,16 @@ std::vector<std::vector<double>> states_of(const RecordedAnswer& answer);
 /// Throws InputError unless each state of the path has so many numbers; `body` is whose they are.
 void check_state_width(const RecordedAnswer& answer, std::size_t width, std::string_view body);
 
+/// Does somebody name other joints than an arm has, or in another order? Who names none does not.
+bool names_other_joints(std::span<const std::string> named, std::span<const ArmVariable> joints);
+
+/// Throws InputError unless the states of the path are of these joints: by their number and, where the answer names
+/// joints, by their names.
+void check_joints(const RecordedAnswer& answer, std::span<const ArmVariable> joints);
+
+/// The older path that a question keeps to is this one.
+void keep_to(RouteRule& route, const RecordedAnswer& answer);
+
 /// Throws InputError if the answer names the hash of another world.
 void check_same_world(const RecordedAnswer& answer, const std::string& file, const Scene& scene,
                       const Execution& execution);

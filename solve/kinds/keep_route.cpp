@@ -95,7 +95,8 @@ std::vector<State> asked_goals(const Answer& answer) {
 }
 
 /// Where it ends; none: the goal is a place of an arm's tool, and the judge asks.
-std::optional<PathEnd> check_route(const std::vector<State>& route, const Answer& answer) {
+std::optional<PathEnd> check_route(const RouteRule& rule, const Answer& answer) {
+  const std::vector<State>& route = rule.keep_to;
   const Problem& problem = answer.problem;
   if (answer.price && !is_round(problem.robot)) {
     throw UsageError("@keep_to: what an older path of a car costs in turns and gears is not compared; ask without");
@@ -109,6 +110,10 @@ std::optional<PathEnd> check_route(const std::vector<State>& route, const Answer
     throw UsageError(
         fmt::format("@keep_to: the path's states have {} numbers, the body's {}", state.size(), problem.start.size()));
   }
+  std::span<const ArmVariable> joints;  // that have names
+  if (const auto& files = problem.robot.files; files && files->read) joints = files->read->variables;
+  if (names_other_joints(rule.joints, joints))
+    throw UsageError("@keep_to: the path is of other joints than the robot's, or in another order");
   if (problem.goal_pose) return std::nullopt;
   const std::vector<State> goals = asked_goals(answer);
   const auto is_of_tool = [&](const State& goal) { return goal.size() != route.back().size(); };
@@ -198,7 +203,7 @@ void keep_to_route(Answer& answer, const Scene& scene, const Question& question,
     throw UsageError("@keep_to: is for a way to a goal; of places to visit nobody knows which are left");
   }
   if (!options.trees.via.empty()) throw UsageError("@keep_to: nobody knows which places of @via are left");
-  const std::optional<PathEnd> end = check_route(rule.keep_to, answer);
+  const std::optional<PathEnd> end = check_route(rule, answer);
   const StageTimer timer(execution, "keep", answer.seconds.verify, rule.keep_to.size());
   const Problem& problem = answer.problem;
   // So far from its route the body is still on it.

@@ -225,9 +225,8 @@ void tell_bound(Answer& answer, const Scene& scene, const SolveOptions& options,
     const bool in_metric = gets_better(enum_named<PlannerKind>(answer.planner).value_or(PlannerKind::prm));
     if (answer.cost && !answer.price && !in_metric) return;
     const bool exact = options.bound || options.anytime.gap;
-    double seconds = 0.0;
     std::optional<StageTimer> timer;
-    if (exact) timer.emplace(execution, "bound", seconds);
+    if (exact) timer.emplace(execution, "bound", nullptr);
     answer.lower_bound = proved_bound(scene, answer.problem, in_metric ? BoundOf::metric : BoundOf::length,
                                       exact ? BoundEffort::exact : BoundEffort::simple, execution);
   }
@@ -244,8 +243,7 @@ void prove_on_map(Answer& answer, const Scene& scene, const SolveOptions& option
   if (answer.planner != name_of(PlannerKind::grid) || !options.trees.via.empty() || !has_one_way(answer.problem) ||
       ends_near(answer))
     return;
-  double seconds = 0.0;
-  const StageTimer timer(execution, "bound", seconds, scene.map->blocked.size());
+  const StageTimer timer(execution, "bound", nullptr, scene.map->blocked.size());
   if (!answer.price) answer.cost.reset();  // in steps: what is bounded is the length
   const double cost = answer.cost.value_or(answer.length);
   double bound = answer.lower_bound.value_or(0.0);

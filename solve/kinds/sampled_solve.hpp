@@ -289,7 +289,7 @@ class SampledSolve {
     body.length = [this](const Path<State>& path) { return length_of(path); };
     if (request_.keep != nullptr) body.kept = [this](const Path<State>& path) { keep_improved(path); };
     if (wants_exact_bound()) body.lower_bound = [this] { return bound(BoundEffort::exact); };
-    body.judge_bytes = judge_bytes();
+    body.judge_bytes = judge_bytes(request_.scene);
     body.judged_s = [this](const Path<State>& path) {
       Answer judged;
       judged.outcome = Outcome::solved;
@@ -302,13 +302,6 @@ class SampledSolve {
       return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     };
     return body;
-  }
-  /// An index of its own of what is in the way, or a map with prices, and what the answer takes.
-  std::size_t judge_bytes() const {
-    constexpr std::size_t fixed = std::size_t{1} << 20U;
-    constexpr std::size_t a_corner = 128;
-    const Scene& scene = request_.scene;
-    return fixed + (scene.map ? scene.map->blocked.bytes() * 4 : a_corner * corner_count(scene));
   }
   /// Where the reference point went; curves as chords.
   void keep_improved(const Path<State>& path) {

@@ -173,11 +173,7 @@ bool fits_arm(const Scene&, const RobotSpec& robot) { return is_arm(robot); }
 Verdict recheck_arm(const Scene& scene, const Question& question, const RecordedAnswer& answer,
                     const Execution& execution) {
   ArmProblem problem = arm_problem(scene, question, execution);
-  check_state_width(answer, problem.width(), "an arm");
-  if (!answer.joints.empty() &&
-      !std::ranges::equal(answer.joints, problem.model.variables, {}, {}, &ArmVariable::name)) {
-    throw InputError(answer.file, "key \"joints\": the robot has other joints, or in another order");
-  }
+  check_joints(answer, problem.model.variables);
   Path<JointState> path;
   for (const std::vector<double>& state : states_of(answer)) path.push_back(joint_state(state));
   take_reached_goal(problem, path.back());

@@ -250,6 +250,7 @@ class Car : public PoseBody {
     search.gap = options_.anytime.gap.value_or(search.gap);
     search.iterations = options_.anytime.iterations;
     search.unit = lattice->unit();
+    search.judge_bytes = judge_bytes(scene_);
     OverLattice over{.path = {},
                      .found = LatticeSearch(*lattice, search, execution_).run(),
                      .cell = lattice->cell(),

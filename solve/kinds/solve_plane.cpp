@@ -466,7 +466,7 @@ Answer solve_on_medial_axis(const SolveRequest& request) {
       answer.path_figures.push_back({"axis_length", plan.axis_length});
       answer.path_figures.push_back({"axis_clearance", plan.axis_clearance});
     }
-    const MedialAxis* axis = known != nullptr ? &known->axis : plan.axis ? &*plan.axis : nullptr;
+    const MedialAxis* axis = known != nullptr ? &known->axis : plan.made ? &plan.made->axis : nullptr;
     if (request.keep != nullptr && axis != nullptr) request.keep->lines.push_back(lines_of(*axis));
     verify_solved(answer, request.scene, problem, request.execution, request.asked.judged());
   });

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "solve/kinds/plane_steps.hpp"
 #include "solve/question/asked_words.hpp"
 #include "verify/judges/effective_scene.hpp"
 #include "verify/judges/verify_price.hpp"
@@ -40,6 +41,16 @@ double largest_coordinate_of(const Scene& scene, const Execution& execution) {
 }
 
 }  // namespace
+
+std::size_t judge_bytes(const Scene& scene) {
+  constexpr std::size_t fixed = std::size_t{1} << 20U;
+  constexpr std::size_t a_corner = 128;
+  constexpr std::size_t a_solid = 512;
+  if (scene.map) return fixed + 4 * scene.map->blocked.bytes();
+  std::size_t corners = corner_count(scene);
+  for (const Solid& solid : scene.solids) corners += solid.corners.size();
+  return fixed + a_corner * corners + a_solid * (scene.spheres.size() + scene.boxes.size() + scene.solids.size());
+}
 
 VerifyOptions verify_options(const WallProblem& problem) {
   return {.radius = problem.robot.radius,

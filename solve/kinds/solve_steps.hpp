@@ -88,6 +88,10 @@ struct RefutedPathError : std::logic_error {
 void verify_solved(Answer& answer, const Scene& scene, const WallProblem& problem, const Execution& execution,
                    const ObstacleIndex* judged = nullptr);
 
+/// Bytes that the judge of a path holds, whatever the path: an index of its own of what is in the way, or a map with
+/// prices, and what the answer takes. Planners that get better keep them back.
+std::size_t judge_bytes(const Scene& scene);
+
 /// What the judge of points is asked for the problem.
 VerifyOptions verify_options(const WallProblem& problem);
 /// The judge's word on the path of a solved answer: as verify_solved().

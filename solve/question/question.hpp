@@ -38,6 +38,7 @@ struct RouteRule {
   std::optional<double> hole = {};     ///< obstacles so far across make classes, >= 0; none: the body's length; 0: all
   std::optional<double> stretch = {};  ///< alternatives cost so many times the best at most, >= 1; none: 1.5
   std::vector<std::vector<double>> keep_to = {};  ///< states of an older path, whose rest is kept where it is free
+  std::vector<std::string> joints = {};           ///< of an arm: whose numbers those are; empty: not told
   std::optional<double> unless_gain = {};  ///< unless a new path costs less by this share of the rest's cost, 0 .. 1;
                                            ///< none: 0.05
 

@@ -14,6 +14,7 @@
 #include "planners/mazes/overlay_search.hpp"
 #include "planners/mazes/tile_source.hpp"
 #include "scenes/files/maze_file_io.hpp"
+#include "scenes/mazes/spanning_maze.hpp"
 #include "scenes/text/input_file_io.hpp"
 #include "solve/answer/world_account.hpp"
 #include "solve/answer/write_answer_io.hpp"
@@ -27,7 +28,7 @@ namespace {
 
 constexpr unsigned tile_side_log2 = CellBits::usual_side_log2;
 
-Range cell_rows(MazeHint size, TileRows own) {
+Range cell_rows(MazeHint size, Range own) {
   return {own.first << tile_side_log2, std::min<std::size_t>(size.rows, own.last << tile_side_log2)};
 }
 
@@ -45,7 +46,7 @@ class FormulaWalls : public StreamedWalls {
 
 class FileWalls : public StreamedWalls {
  public:
-  FileWalls(const PackedMaze& packed, TileRows own, const Execution& execution)
+  FileWalls(const PackedMaze& packed, Range own, const Execution& execution)
       : file_(packed.file, execution),
         planned_(file_),
         judged_(file_.name(), file_.bytes(),
@@ -65,7 +66,7 @@ class FileWalls : public StreamedWalls {
 /// Two passes over an array: the planner's, and the judge's.
 class ArrayWalls : public StreamedWalls {
  public:
-  ArrayWalls(const PackedMaze& packed, MazeHint size, TileRows own, const Execution& execution)
+  ArrayWalls(const PackedMaze& packed, MazeHint size, Range own, const Execution& execution)
       : file_(packed.file, execution),
         planned_(file_, size, execution, own),
         judged_(
@@ -240,7 +241,7 @@ Verdict recheck_streamed(const Scene& scene, const Question& question, const Rec
 
 }  // namespace
 
-std::unique_ptr<StreamedWalls> streamed_walls(const Scene& unmade, TileRows own, const Execution& execution) {
+std::unique_ptr<StreamedWalls> streamed_walls(const Scene& unmade, Range own, const Execution& execution) {
   if (unmade.packed->hash) return std::make_unique<FileWalls>(*unmade.packed, own, execution);
   return std::make_unique<ArrayWalls>(*unmade.packed, *unmade.maze, own, execution);
 }

@@ -13,9 +13,9 @@
 #include "core/base/solution.hpp"
 #include "core/plane/cell_walls.hpp"
 #include "core/run/execution.hpp"
+#include "parallel/chunks.hpp"
 #include "planners/graph/roadmap_arrays.hpp"
 #include "planners/mazes/tiled_prm_lattice.hpp"
-#include "scenes/mazes/spanning_maze.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/answer/answer.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
@@ -46,7 +46,7 @@ std::unique_ptr<StreamedWalls> streamed_walls(const Scene& unmade, const Executi
 /// The walls that a file (Scene::packed) has of some rows of tiles, at least one, and of the row of cells below them;
 /// no others are asked for. Of a .maze the row of tiles below is read as well, for its checksum, and no more; an array
 /// has no order that could be relied on, so all of it is, and these walls stay.
-std::unique_ptr<StreamedWalls> streamed_walls(const Scene& unmade, TileRows own, const Execution& execution);
+std::unique_ptr<StreamedWalls> streamed_walls(const Scene& unmade, Range own, const Execution& execution);
 
 /// Several processes that share the work of a streamed solve, as the one that asks for the answer sees them
 /// (apps/distributed/leader_follower.hpp).

@@ -32,12 +32,12 @@
 #include <variant>
 #include <vector>
 
+#include "core/base/instruction_set.hpp"
 #include "core/base/raw_vector.hpp"
 #include "core/base/types.hpp"
 #include "core/base/whole.hpp"
 #include "core/plane/wall_set.hpp"
 #include "core/run/execution.hpp"
-#include "spatial/points/disc_points.hpp"
 
 namespace warren {
 // Does a wall's box meet a query's box? The question that nine of ten walls near a motion fail, asked of all four

@@ -32,31 +32,7 @@ template <class Lanes>
   }
 }
 
-void count_baseline(const std::int32_t* key, std::size_t count, std::int32_t* rank) {
-  count_smaller<Lanes4>(key, count, rank);
-}
-
-#if defined(__x86_64__) && !defined(WARREN_PLAIN)
-[[gnu::target("avx2")]] void count_avx2(const std::int32_t* key, std::size_t count, std::int32_t* rank) {
-  count_smaller<Lanes8>(key, count, rank);
-}
-#else
-void count_avx2(const std::int32_t* key, std::size_t count, std::int32_t* rank) { count_baseline(key, count, rank); }
-#endif
-
 }  // namespace
-
-InstructionSet best_instruction_set() noexcept {
-#if defined(__x86_64__) && !defined(WARREN_PLAIN)
-  static const InstructionSet best = [] {
-    if (__builtin_cpu_supports("avx512f") != 0) return InstructionSet::avx512;
-    return __builtin_cpu_supports("avx2") != 0 ? InstructionSet::avx2 : InstructionSet::baseline;
-  }();
-  return best;
-#else
-  return InstructionSet::baseline;
-#endif
-}
 
 std::size_t DiscPoints::sort_roughly(std::size_t k, double scale, InstructionSet set) noexcept {
   for (std::size_t i = 0; i < count; ++i) {
@@ -64,7 +40,9 @@ std::size_t DiscPoints::sort_roughly(std::size_t k, double scale, InstructionSet
     key[i] = as_whole<std::int32_t>((bits & ~index_mask) | as_whole<std::uint32_t>(i));
   }
   for (std::size_t i = count; i < count + padding; ++i) key[i] = std::numeric_limits<std::int32_t>::max();
-  (set == InstructionSet::baseline ? count_baseline : count_avx2)(key, count, rank);
+  const auto count_all = set == InstructionSet::baseline ? &VersionsOf<&count_smaller<Lanes4>>::baseline
+                                                         : &VersionsOf<&count_smaller<Lanes8>>::avx2;
+  count_all(key, count, rank);
   for (std::size_t i = 0; i < count; ++i) by_rank[rank[i]] = as_whole<std::uint32_t>(i);
   const std::int32_t limit = (key[by_rank[k - 1]] | as_whole<std::int32_t>(index_mask)) + std::int32_t{capacity};
   while (k < count && key[by_rank[k]] <= limit) ++k;

@@ -10,15 +10,11 @@
 #include <cstdint>
 #include <span>
 
+#include "core/base/instruction_set.hpp"
 #include "core/base/types.hpp"
 #include "core/base/whole.hpp"
 
 namespace warren::detail {
-
-/// Versions of a loop; all give the same answers. The counting loop has no third one.
-enum class InstructionSet : std::uint8_t { baseline, avx2, avx512 };
-/// The best one that this machine has.
-InstructionSet best_instruction_set() noexcept;
 
 struct DiscPoints {
   static constexpr std::size_t capacity = 128;

@@ -14,9 +14,10 @@
 #include <limits>
 #include <numeric>
 
+#include "core/base/instruction_set.hpp"
 #include "core/base/raw_vector.hpp"
+#include "core/base/whole.hpp"
 #include "parallel/sort.hpp"
-#include "spatial/points/disc_points.hpp"
 
 namespace warren {
 namespace {
@@ -202,21 +203,6 @@ template <class Lanes, int D>
   std::memcpy(all.data(), &least_of_all, sizeof least_of_all);
   return *std::min_element(all.begin(), all.end());
 }
-
-template <int D>
-float measure_baseline(Blocks<D> blocks, std::span<const float> from, float beyond, float* squares, float* least) {
-  return measure_by_lanes<Lanes4, D>(blocks, from, beyond, squares, least);
-}
-#if defined(__x86_64__) && !defined(WARREN_PLAIN)
-template <int D>
-[[gnu::target("avx2")]] float measure_avx2(Blocks<D> blocks, std::span<const float> from, float beyond, float* squares,
-                                           float* least) {
-  return measure_by_lanes<Lanes8, D>(blocks, from, beyond, squares, least);
-}
-#else
-template <int D>
-constexpr auto measure_avx2 = measure_baseline<D>;
-#endif
 
 }  // namespace
 
@@ -425,8 +411,10 @@ void GrowingTree<D>::look_at_newest(const Point& p, double most, bool only_neare
     return;
   }
   if constexpr (is_wide) {
-    static const auto measure =
-        detail::best_instruction_set() == detail::InstructionSet::baseline ? measure_baseline<D> : measure_avx2<D>;
+    using Fours = detail::VersionsOf<&measure_by_lanes<Lanes4, D>>;
+    using Eights = detail::VersionsOf<&measure_by_lanes<Lanes8, D>>;
+    const bool by_fours = detail::best_instruction_set() == detail::InstructionSet::baseline;
+    const auto measure = by_fours ? &Fours::baseline : &Eights::avx2;
     std::array<float, D> from;
     double beyond = 0.0;  // on axes that all others have 0 on
     for (std::size_t axis = 0; axis < D; ++axis) {

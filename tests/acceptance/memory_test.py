@@ -104,8 +104,9 @@ def main() -> int:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         write_map(folder)
-        # and where each milestone has all others within its radius
-        for planner, column, *more in fields() + [("prm", "point", "--radius", "300", "--samples", "60000")]:
+        # and where each milestone has all others within its radius, and where trees grow side by side
+        for planner, column, *more in fields() + [("prm", "point", "--radius", "300", "--samples", "60000"),
+                                                  ("rrt-connect", "polygon", "--trees", "8", "--nodes", "2000000")]:
             words = question(column, folder)
             for limit in LIMITS_MIB:
                 if zlib.crc32(f"{options.pick} {planner} {column} {limit} {more}".encode()) % shares != share - 1:

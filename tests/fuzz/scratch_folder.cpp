@@ -10,7 +10,7 @@
 namespace warren::fuzz {
 namespace {
 
-class ScratchFolder {
+class ScratchFolder : NotCopied {
  public:
   ScratchFolder() : path_(parent() + "/warren-fuzz-XXXXXX") {
     demand(::mkdtemp(path_.data()) != nullptr, "a folder for files");
@@ -19,8 +19,6 @@ class ScratchFolder {
     std::error_code ignored;
     std::filesystem::remove_all(path_, ignored);
   }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
   const std::string& path() const { return path_; }
 
  private:

@@ -132,6 +132,32 @@ TEST(Deadline, OfAPartEndsByItselfOrWithTheWhole) {
   EXPECT_FALSE(Deadline(nullptr, 1000.0).reached());
 }
 
+TEST(Deadline, PartsSideBySideAreGrantedWhatIsTheirsWhateverTheOthersAsk) {
+  constexpr std::size_t mebibyte = std::size_t{1} << 20;
+  const Deadline whole(forever, resident_bytes() + 1024 * mebibyte);
+  const Deadline one(&whole, CountedRoom{10 * mebibyte});
+  const Deadline other(&whole, CountedRoom{10 * mebibyte});
+  EXPECT_NO_THROW(one.reserve(9 * mebibyte));  // nothing is taken: whoever measures would grant it again
+  EXPECT_EQ(one.room(), mebibyte);
+  EXPECT_EQ(reason_of(one, 9 * mebibyte), StopReason::memory);
+  EXPECT_GE(whole.wanted_bytes(), whole.memory_bytes() + 8 * mebibyte);
+  EXPECT_NO_THROW(other.reserve(9 * mebibyte));
+  const Deadline part(&other, forever, mebibyte / 2);
+  EXPECT_EQ(reason_of(part, mebibyte / 2), StopReason::memory);
+  EXPECT_NO_THROW(part.reserve(mebibyte / 4));
+  EXPECT_EQ(other.room(), mebibyte - mebibyte / 4) << "a part is granted what the whole is";
+  EXPECT_EQ(reason_of(Deadline(&whole, CountedRoom{4096 * mebibyte}), 2048 * mebibyte), StopReason::memory);
+  EXPECT_NO_THROW(Deadline(nullptr, CountedRoom{1}).reserve(mebibyte)) << "without a limit nothing is counted";
+}
+
+TEST(Deadline, TellsWhatIsLeftInSteps) {
+  give_freed_pages_back();
+  const Deadline deadline(forever, resident_bytes() + (std::size_t{100} << 20));
+  EXPECT_EQ(deadline.room(), std::size_t{96} << 20);  // eighths of 64 MiB
+  EXPECT_EQ(Deadline(forever, 1).room(), 0U);
+  EXPECT_EQ(Deadline(forever).room(), std::numeric_limits<std::size_t>::max());
+}
+
 TEST(Memory, FiguresAreInAPlausibleOrder) {
   EXPECT_GT(resident_bytes(), 0U);
   EXPECT_GE(peak_resident_bytes(), resident_bytes() / 2);

@@ -100,11 +100,10 @@ TEST(Trace, ChunksHaveTheNameOfTheirStageAndTheNumberOfItems) {
   Trace trace;
   Execution execution;
   execution.trace = &trace;
-  double seconds = 0.0;
   {
-    const StageTimer outer(execution, "outer", seconds, 7);
+    const StageTimer outer(execution, "outer", nullptr, 7);
     {
-      StageTimer inner(execution, "inner", seconds);
+      StageTimer inner(execution, "inner", nullptr);
       inner.set_items(5);  // known at its end
     }
     for_chunks(10, 10, execution, [](Range) {});

@@ -28,7 +28,7 @@ std::string bytes_of(Answer answer) {
   return test::bytes_of(std::move(answer));
 }
 
-/// Blocks that come and go, prices, discs and points, another start now and then.
+/// Blocks that come and go, prices, areas that the world forbids, discs and points, another start now and then.
 void expect_fresh_bytes(std::uint64_t seed, int changes, std::uint32_t least) {
   SCOPED_TRACE(seed);
   SequentialRng rng(seed);
@@ -48,7 +48,9 @@ void expect_fresh_bytes(std::uint64_t seed, int changes, std::uint32_t least) {
   if (seed % 4 < 2) question.prices.areas.push_back({2.5, {{1.0, 3.0}, {4.0, 3.0}, {2.0, 9.0}}, 0});
   SolveOptions options;
   options.planner = PlannerKind::grid;
-  Replanner replanner(scene_of(blocked, 0.25, {-1.0, 2.0}), question, options);
+  Scene scene = scene_of(blocked, 0.25, {-1.0, 2.0});
+  if (seed % 3 != 1) scene.prices.keep_out.push_back({{{0.6, 3.0}, {2.1, 2.7}, {1.6, 5.2}}, 0});
+  Replanner replanner(std::move(scene), question, options);
   for (int change = 0; change < changes; ++change) {
     if (change % 5 == 4) question.start = {-0.9 + 0.25 * below(4), 2.1 + 0.25 * below(4)};
     const Answer again = replanner.solve(question.start);

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "solve/kept/roadmap_query.hpp"
@@ -82,6 +83,25 @@ void expect_kept_or_refused(const test::AskedBody& body, PlannerKind planner, co
   expect_heard(body, row, *answer);
 }
 
+/// A place that the world's own lines forbid; other words are the question's alone.
+void expect_line_heard_or_refused(const test::AskedBody& body, PlannerKind planner, const test::AskedRow& row) {
+  Question question = plain_question(body);
+  SolveOptions options = options_of(planner);
+  row.ask(question, options);
+  if (question.prices.keep_out.empty()) return;
+  test::AskedBody closed = body;
+  closed.scene.prices = std::exchange(question.prices, {});
+  std::optional<Answer> answer;
+  try {
+    answer = solve(closed.scene, question, options);
+  } catch (const UsageError& error) {
+    const std::string_view why = error.what();
+    EXPECT_TRUE(why.find("keep-out") != why.npos || why.find("keep out") != why.npos) << why;
+    return;
+  }
+  expect_heard(closed, row, *answer);
+}
+
 using Ask = void (*)(const test::AskedBody&, PlannerKind, const test::AskedRow&);
 
 /// Of the planners for which plain(body, planner) throws nothing: others are for other bodies or worlds.
@@ -108,7 +128,10 @@ TEST(AskedWords, AreHeardOrRefusedByName) {
   const auto plain = [](const test::AskedBody& body, PlannerKind planner) {
     solve(body.scene, plain_question(body), options_of(planner));
   };
-  ask_each_word(plain, expect_heard_or_refused);
+  ask_each_word(plain, [](const test::AskedBody& body, PlannerKind planner, const test::AskedRow& row) {
+    expect_heard_or_refused(body, planner, row);
+    expect_line_heard_or_refused(body, planner, row);
+  });
 }
 
 TEST(AskedWords, AreKeptByRoadmapsOrRefusedByName) {

@@ -81,5 +81,23 @@ TEST(Export, ARoadmapBecomesARouteGraphOfTheNodesThatMatter) {
   EXPECT_EQ(run_program(fmt::format("export {} -o {} --simplify 1", roadmap, folder.file("g.csv"))).exit_code, 2);
 }
 
+/// It turns on the spot wherever it is: its nodes have no headings, and new edges are those of its disc.
+TEST(Export, ARoundDifferentialDriveHasARouteGraphAndOtherCarsHaveNone) {
+  const TemporaryDirectory folder;
+  folder.write("yard.scene", "bounds 0 0 10 6\nrobot car radius 0.3 turning 0.5 steering differential\n");
+  const std::string roadmap = folder.file("yard.roadmap");
+  const std::string to = folder.file("graph.geojson");
+  const std::string build =
+      fmt::format("build {} --planner prm --samples 100 -o {}", folder.file("yard.scene"), roadmap);
+  const std::string simplify = fmt::format("export {} -o {} --simplify 0.5", roadmap, to);
+  ASSERT_EQ(run_program(build).exit_code, 0);
+  const ProgramRun made = run_program(simplify);
+  ASSERT_EQ(made.exit_code, 0) << made.out;
+  EXPECT_GT(nodes_in(folder.read("graph.geojson")), 0U);
+  EXPECT_EQ(folder.read("graph.geojson").find("theta"), std::string::npos);
+  ASSERT_EQ(run_program(build + " --steering reeds-shepp").exit_code, 0);
+  EXPECT_EQ(run_program(simplify).exit_code, 2);
+}
+
 }  // namespace
 }  // namespace warren::test

@@ -15,15 +15,13 @@ namespace warren::test {
 namespace {
 
 /// What the programs that are started while it lives ask of the sanitizer.
-class AskedForLeaks {
+class AskedForLeaks : NotCopied {
  public:
   AskedForLeaks() {
     if (const char* const before = std::getenv("ASAN_OPTIONS")) before_ = before;
     ::setenv("ASAN_OPTIONS", (before_ + ":detect_leaks=1").c_str(), 1);
   }
   ~AskedForLeaks() { ::setenv("ASAN_OPTIONS", before_.c_str(), 1); }
-  AskedForLeaks(const AskedForLeaks&) = delete;
-  AskedForLeaks& operator=(const AskedForLeaks&) = delete;
 
  private:
   std::string before_;

@@ -19,12 +19,13 @@
 #include <thread>
 #include <vector>
 
+#include "core/base/types.hpp"
 #include "tests/paths.hpp"
 
 namespace warren::test {
 
 /// A folder that lives as long as the test.
-class Folder {
+class Folder : NotCopied {
  public:
   Folder() {
     std::string name = (std::filesystem::temp_directory_path() / "warren_test_XXXXXX").string();
@@ -35,8 +36,6 @@ class Folder {
     std::error_code ignored;
     std::filesystem::remove_all(path_, ignored);
   }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
 
   std::string path(const std::string& name) const { return (path_ / name).string(); }
   std::string write(const std::string& name, std::string_view bytes) const {

@@ -178,6 +178,8 @@ TEST_F(SolveUrdf, StopsOfTwoJointsAreStates) {
               0);
     const Outcome good = run({"verify", scene, file});
     EXPECT_EQ(good.code, 0) << good.out << good.err;
+    const Outcome drawn = run({"render", scene, "--answer", file, "-o", "-"});
+    EXPECT_NE(drawn.out.find("id=\"trace\""), std::string::npos) << "all of the path " << drawn.err;
     Json other = Json::parse(folder_.read("two.json"));
     other[option.substr(2)][0][1] = 0.3;
     folder_.write("two.json", other.dump());
@@ -307,6 +309,60 @@ world:
   asked({"query", roadmap, "--json", "-"});
   EXPECT_EQ(run({"update", roadmap, scene, "-o", folder_.path("new.roadmap"), "--quiet"}).code, 0);
   asked({"query", folder_.path("new.roadmap"), "--json", "-"});
+}
+
+/// Objects in the frame of a link: who knows the robot reads them, the others are told.
+TEST_F(SolveUrdf, ScenesOfMoveItMayHavePosesInFramesOfLinks) {
+  const std::string scene = folder_.write("frames.yaml", R"(robot_model_name: crane
+robot_state: {joint_state: {name: [base], position: [0.1]}}
+world:
+  collision_objects:
+    - id: pillar
+      header: {frame_id: column}
+      primitives: [{type: cylinder, dimensions: [1, 0.1]}]
+      primitive_poses: [{position: [0.7, 0, 0.5]}]
+)");
+  const std::string answer = folder_.path("frames.json");
+  const std::string roadmap = folder_.path("frames.roadmap");
+  const std::string plain = folder_.path("frames.scene");
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"solve", scene, "--robot", robot_, "--start", "-0.9,0.3,0.2,0", "--goal",
+                                 "0.9,0.3,0.2,0.1", "--json", answer, "--quiet"},
+        {"verify", scene, answer},
+        {"render", scene, "--answer", answer, "-o", folder_.path("frames.svg")},
+        {"convert", scene, "--robot", robot_, "-o", plain},
+        {"verify", plain, answer},
+        {"build", scene, "--robot", robot_, "-o", roadmap, "--samples", "50", "--quiet"},
+        {"update", roadmap, scene, "-o", roadmap + "2", "--quiet"}}) {
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.code, 0) << shown(words) << outcome.err;
+  }
+  std::string open = folder_.read("frames.yaml");  // says no more where joint base is
+  open.erase(open.find("robot_state"), open.find("world:") - open.find("robot_state"));
+  const Outcome unsaid = run({"update", roadmap, folder_.write("open.yaml", open), "-o", roadmap + "3"});
+  EXPECT_EQ(unsaid.code, 65);
+  EXPECT_NE(unsaid.err.find("this link moves with joint base"), std::string::npos) << unsaid.err;
+  const Outcome unknown = run({"convert", scene, "-o", plain});
+  EXPECT_EQ(unknown.code, 65);
+  EXPECT_NE(unknown.err.find("frames.yaml:6: nobody says where this frame is"), std::string::npos) << unknown.err;
+  const Outcome ignored = run({"convert", file_, "--robot", robot_, "-o", plain});
+  EXPECT_EQ(ignored.code, 2);
+  EXPECT_NE(ignored.err.find("--robot: is for --simplify"), std::string::npos) << ignored.err;
+}
+
+TEST_F(SolveUrdf, AnAnswerOfOtherJointsIsNeitherKeptNorDrawn) {
+  const std::string answer = folder_.path("old.json");
+  ASSERT_EQ(run({"solve", file_, "--json", answer, "--quiet"}).code, 0);
+  EXPECT_EQ(run({"solve", file_, "--keep-to", answer, "--unless-gain", "0.99", "--quiet"}).code, 0);
+  std::string swapped = folder_.read("old.json");
+  swapped.replace(swapped.find("[\"base\", \"shoulder\""), 19, "[\"shoulder\", \"base\"");
+  folder_.write("old.json", swapped);
+  const Outcome kept = run({"solve", file_, "--keep-to", answer, "--json", "-"});
+  EXPECT_EQ(kept.code, 2);
+  EXPECT_NE(kept.err.find("--keep-to: the path is of other joints than the robot's"), std::string::npos) << kept.err;
+  const Outcome drawn = run({"render", file_, "--answer", answer, "-o", folder_.path("old.svg")});
+  EXPECT_EQ(drawn.code, 65);
+  EXPECT_NE(drawn.err.find("old.json: key \"joints\": the robot has other joints"), std::string::npos) << drawn.err;
 }
 
 /// What is carried is a part of the body: of another roadmap, and of another world.

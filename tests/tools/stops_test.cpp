@@ -12,7 +12,7 @@ namespace warren::test {
 namespace {
 
 /// For processes begun while it lives: no file may grow beyond so many bytes.
-class FileSizeLimit {
+class FileSizeLimit : NotCopied {
  public:
   explicit FileSizeLimit(rlim_t bytes) {
     ::getrlimit(RLIMIT_FSIZE, &before_);
@@ -20,8 +20,6 @@ class FileSizeLimit {
     ::setrlimit(RLIMIT_FSIZE, &limit);
   }
   ~FileSizeLimit() { ::setrlimit(RLIMIT_FSIZE, &before_); }
-  FileSizeLimit(const FileSizeLimit&) = delete;
-  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
 
  private:
   rlimit before_{};

@@ -63,15 +63,13 @@ class WholeRun {
   double part_ = 0.0;
 };
 
-class ProgressBar {
+class ProgressBar : NotCopied {
  public:
   /// Watches `progress` until destroyed. Mode none draws nothing and starts no thread. budget_s: of the run, from now
   /// on.
   ProgressBar(const Progress& progress, ProgressMode mode, std::optional<double> budget_s = {},
               ExpectedStages stages = {});
   ~ProgressBar();
-  ProgressBar(const ProgressBar&) = delete;
-  ProgressBar& operator=(const ProgressBar&) = delete;
 
   /// From now on the line says what the best path costs. Any thread.
   void tell(const Improvement& improvement);

@@ -31,12 +31,10 @@ unsigned threads_value(std::string_view option, std::string_view text);
 enum class RunScope : std::uint8_t { whole_command, each_run, each_run_and_threads };
 
 /// One run of a verb: the clock starts with it. Not movable: Execution points into it.
-class Run {
+class Run : NotCopied {
  public:
   /// stages: all to come, where they are known, so that the bar tells how long the whole run will take.
   explicit Run(const Arguments& arguments, RunScope scope = RunScope::whole_command, ExpectedStages stages = {});
-  Run(const Run&) = delete;
-  Run& operator=(const Run&) = delete;
 
   const Execution& execution() const { return execution_; }
   bool quiet() const { return quiet_; }
@@ -50,8 +48,8 @@ class Run {
   }
   template <class Work>
   auto in_stage(const char* name, const Work& work, std::uint64_t items = 0) const {
-    double unasked = 0.0;
-    return in_stage(name, unasked, work, items);
+    const StageTimer timer(execution_, name, nullptr, items);
+    return work();
   }
   /// Says one line on standard error, above the bar; nothing with --quiet or --progress none.
   void note(std::string_view line) const;

@@ -55,18 +55,25 @@ InputFile file_of_world(const std::string& source, const Execution& execution) {
   return InputFile(source, execution);
 }
 
+/// Of --robot, else of the other one.
+std::optional<ArmFiles> files_of(const Arguments& arguments, const std::optional<RobotSpec>& other) {
+  const auto words = arguments.value("--robot");
+  const auto said = [&] { return robot_value("--robot", *words); };
+  const std::optional<RobotSpec> robot = words ? std::optional(as_usage(said)) : other;
+  return robot ? robot->files : std::nullopt;
+}
+
 /// A goal of one tool or group means nothing to another one. before: what the world says of the arm.
 void refuse_another_robot(const ArmFiles& before, const Scene& scene, const Arguments& arguments) {
-  const auto words = arguments.value("--robot");
-  const RobotSpec robot = words ? robot_value("--robot", *words) : RobotSpec{};
-  if (!robot.files || !scene.arm) return;
-  const bool has_ends = !robot.files->base.empty() || !robot.files->tip.empty();
+  const auto files = files_of(arguments, {});
+  if (!files || !scene.arm) return;
+  const bool has_ends = !files->base.empty() || !files->tip.empty();
   if (has_ends && scene.arm->group != before.group) {
     throw UsageError(
         fmt::format("--robot: says base and tip, the request group {}; leave them out of one", scene.arm->group));
   }
-  for (const auto& [noun, own, world, asked] : {std::tuple("group", robot.files->group, before.group, scene.arm->group),
-                                                {"tool", robot.files->tool, before.tool, scene.arm->tool}}) {
+  for (const auto& [noun, own, world, asked] : {std::tuple("group", files->group, before.group, scene.arm->group),
+                                                {"tool", files->tool, before.tool, scene.arm->tool}}) {
     if (own.empty() || asked == world || own == asked) continue;
     throw UsageError(fmt::format("--robot: says {} {}, the request {}; leave it out of one", noun, own, asked));
   }
@@ -76,18 +83,18 @@ void refuse_another_robot(const ArmFiles& before, const Scene& scene, const Argu
 
 std::span<const OptionSpec> world_option_specs() { return world_specs; }
 
-Scene load_world(const std::string& source, const Arguments& arguments, const Execution& execution,
-                 StageTimes* seconds) {
-  if (!is_made_source(source)) return load_world(file_of_world(source, execution), arguments, execution, seconds);
+Scene load_world(const std::string& source, const Arguments& arguments, const Execution& execution, StageTimes* seconds,
+                 const std::optional<RobotSpec>& robot) {
+  if (!is_made_source(source))
+    return load_world(file_of_world(source, execution), arguments, execution, seconds, robot);
   if (arguments.has("--map-rules")) refuse_rules(source);
   if (arguments.has("--request")) throw UsageError("--request: is for a world with an arm, and this one is made");
-  double unasked = 0.0;
-  const StageTimer timer(execution, "generate", seconds != nullptr ? seconds->generate : unasked);
+  const StageTimer timer(execution, "generate", seconds != nullptr ? &seconds->generate : nullptr);
   return read_world(source, execution);
 }
 
 Scene load_planned_world(const std::string& source, std::optional<PipelineKind> pipeline, const Arguments& arguments,
-                         const Execution& execution, StageTimes* seconds) {
+                         const Execution& execution, StageTimes* seconds, const std::optional<RobotSpec>& robot) {
   const auto is_large = [&](MazeHint maze) {
     constexpr double bytes_a_cell = 25.0;  // walls and tiles at their peak (docs/performance.md)
     constexpr double most_held = 4294967295.0;
@@ -112,14 +119,16 @@ Scene load_planned_world(const std::string& source, std::optional<PipelineKind> 
     const bool fits = scene && is_npy(file.bytes()) && !is_large(*scene->maze);
     if (scene && !fits && is_left_out(*scene->maze)) return std::move(*scene);
   }
-  return load_world(file, arguments, execution, seconds);
+  return load_world(file, arguments, execution, seconds, robot);
 }
 
-Scene load_world(const InputFile& file, const Arguments& arguments, const Execution& execution, StageTimes* seconds) {
+Scene load_world(const InputFile& file, const Arguments& arguments, const Execution& execution, StageTimes* seconds,
+                 const std::optional<RobotSpec>& robot) {
   const auto asked = given_choice<MapServerRules>(arguments, "--map-rules");
-  double unasked = 0.0;
-  const StageTimer timer(execution, "read", seconds != nullptr ? seconds->read : unasked);
-  Scene scene = read_scene(file, execution, asked.value_or(MapServerRules::nav2));
+  const StageTimer timer(execution, "read", seconds != nullptr ? &seconds->read : nullptr);
+  MoveItFrames frames;
+  if (arguments.has("--request") || format_of(file) == WorldFormat::moveit) frames.robot = files_of(arguments, robot);
+  Scene scene = read_scene(file, execution, asked.value_or(MapServerRules::nav2), &frames);
   if (asked && !(scene.map && scene.map->format == MapFormat::ros)) refuse_rules(file.name());
   if (scene.map) check_not_written(arguments, scene.map->image);
   if (const std::uint64_t grey = scene.map ? scene.map->grey_free : 0; grey > 0 && !arguments.has("--quiet")) {
@@ -132,7 +141,7 @@ Scene load_world(const InputFile& file, const Arguments& arguments, const Execut
   if (const auto name = arguments.value("--request")) {
     check_not_written(arguments, *name);
     const ArmFiles before = scene.arm.value_or(ArmFiles{});
-    take_moveit_request(scene, InputFile(*name, execution), execution);
+    take_moveit_request(scene, InputFile(*name, execution), execution, frames);
     refuse_another_robot(before, scene, arguments);
   }
   check_not_written(arguments, scene.robot);
@@ -189,8 +198,7 @@ Roadmap load_roadmap(const Arguments& arguments, const Execution& execution, Sta
   }
   std::optional<Scene> world;
   if (const auto name = arguments.value("--world")) world = load_world(*name, arguments, execution, seconds);
-  double unasked = 0.0;
-  const StageTimer timer(execution, "read", seconds != nullptr ? seconds->read : unasked);
+  const StageTimer timer(execution, "read", seconds != nullptr ? &seconds->read : nullptr);
   Roadmap roadmap = read_roadmap(file, execution, std::move(world));
   check_not_written(arguments, roadmap.robot);
   return roadmap;
@@ -208,8 +216,11 @@ bool is_roadmap_named(const std::string& file) {
 int draw_roadmap(const Arguments& arguments, const std::string& file, const PictureOptions& options) {
   Run run(arguments);
   const Roadmap roadmap = load_roadmap(arguments, run.execution());
-  const std::vector<std::string> notes = run.in_stage(
-      "draw", [&] { return write_picture(file, roadmap, options, arguments.command_line(), run.execution()); });
+  std::vector<std::string> notes;
+  run.in_stage("draw", [&] {
+    draw_roadmap(roadmap, arguments.command_line(), options.heading, run.execution(),
+                 [&](const Picture& picture) { notes = write_picture(file, picture, options, run.execution()); });
+  });
   run.end();
   say_of_picture(arguments, file, notes);
   run.conclude(file == "-", {}, [&] {
@@ -229,7 +240,7 @@ void read_asked_files(Question& question, const Arguments& arguments, const Exec
   const auto old = arguments.value("--keep-to");
   if (!old) return;
   check_not_written(arguments, *old);
-  question.route.keep_to = states_of(read_answer(*old, execution));
+  keep_to(question.route, read_answer(*old, execution));
 }
 
 }  // namespace warren::tools

@@ -24,18 +24,20 @@ namespace warren::tools {
 std::span<const OptionSpec> world_option_specs();
 
 /// Reads or generates WORLD as world_option_specs say; adds the time to seconds->read or seconds->generate where
-/// somebody asks. Throws as read_world does, and UsageError for rules of maps where the world is no map of map_server.
+/// somebody asks. robot: where no --robot names it, the one in whose links' frames a scene of MoveIt may have poses.
+/// Throws as read_world does, and UsageError for rules of maps where the world is no map of map_server.
 Scene load_world(const std::string& source, const Arguments& arguments, const Execution& execution,
-                 StageTimes* seconds = nullptr);
+                 StageTimes* seconds = nullptr, const std::optional<RobotSpec>& robot = {});
 
 /// The same, but walls are left out that can be had tile by tile (is_unmade): where `pipeline` is streamed, or where it
 /// is not said and the memory would not hold them while they are planned among.
 Scene load_planned_world(const std::string& source, std::optional<PipelineKind> pipeline, const Arguments& arguments,
-                         const Execution& execution, StageTimes* seconds = nullptr);
+                         const Execution& execution, StageTimes* seconds = nullptr,
+                         const std::optional<RobotSpec>& robot = {});
 
 /// The same for a file that is open already.
 Scene load_world(const InputFile& file, const Arguments& arguments, const Execution& execution,
-                 StageTimes* seconds = nullptr);
+                 StageTimes* seconds = nullptr, const std::optional<RobotSpec>& robot = {});
 
 /// Scene text, .npy, or a picture, by the file's ending; "-" is scene text. Returns as write_picture() does.
 std::vector<std::string> write_world(const Scene& scene, const std::string& file, const PictureOptions& options,

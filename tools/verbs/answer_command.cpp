@@ -183,8 +183,7 @@ void AnswerCommand::write_json(std::optional<OutputFile>& file, const Execution&
 }
 
 void AnswerCommand::draw(const Execution& execution) {
-  double seconds = 0.0;
-  const StageTimer timer(execution, "draw", seconds);
+  const StageTimer timer(execution, "draw", nullptr);
   Scene scene = scene_drawn(execution, by_products_);
   add_map_walls(scene, execution);
   const Drawing drawing = drawing_of(scene, answer_, std::move(by_products_), execution, picture_options_.heading);

@@ -124,8 +124,7 @@ std::vector<CheckedScenario> check_scenarios(const OccupancyMap& map, const std:
   std::vector<CheckedScenario> all;
   for (const Scenario& scenario : scenarios) all.push_back({scenario});
   const std::size_t part = std::max(least_part, chunk_count(scenarios.size(), parts));
-  double unused = 0.0;
-  const StageTimer timer(execution, "scenarios", unused, scenarios.size());
+  const StageTimer timer(execution, "scenarios", nullptr, scenarios.size());
   for_chunks(scenarios.size(), part, execution, [&](Range range) {
     std::optional<GridSearch> search;  // another one where they change between land and water
     Bitmap blocked;

@@ -99,7 +99,8 @@ int update_roadmap(const Arguments& arguments) {
   const auto report = output_file(arguments, "--report");
   Run run(arguments);
   const Roadmap old = load_roadmap(arguments, run.execution());
-  Scene now = load_world(arguments.operand(1), arguments, run.execution());
+  Scene now = load_world(arguments.operand(1), arguments, run.execution(), nullptr,
+                         without_what_is_said(old.robot, old.world.outline()));
   UpdateAccount account;
   const Roadmap next = update(old, std::move(now), run.execution(), &account);
   std::optional<OutputFile> told;  // whole before the roadmap takes its place

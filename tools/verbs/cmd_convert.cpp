@@ -43,7 +43,9 @@ constexpr OptionSpec convert_specs[] = {
      "Nodes and edges that somebody has written metadata, operations or headings on stay, and so do costs and "
      "directions"},
     {"--world", "WORLD", "with --simplify: make only edges along which the body goes free in this world"},
-    {"--robot", "\"BODY\"", "with --world: the body (default: the world's, else point)"},
+    {"--robot", "\"BODY\"",
+     "with --world: the body (default: the world's, else point). Of a scene or request of MoveIt: the arm in whose "
+     "links' frames poses may be"},
     {"--clearance", "R", "with --world: room to keep around the body (default: the world's, else 0)"},
 };
 
@@ -95,20 +97,31 @@ std::string write_any(Scene& scene, const std::string& file, const Arguments& ar
   return is_picture(ending_of(file)) ? std::string() : note_of_left_out(scene, file);
 }
 
+Scene load_converted(const Arguments& arguments, const Execution& execution) {
+  const std::string& world = arguments.operand(0);
+  check_not_written(arguments, question_words(arguments).robot);
+  if (!arguments.has("--robot") || arguments.has("--request")) return load_world(world, arguments, execution);
+  constexpr std::string_view why = "is for --simplify, or for a scene or request of MoveIt with poses in links' frames";
+  if (is_made_source(world)) arguments.refuse({"--robot"}, why);
+  const InputFile file(world, execution);
+  if (format_of(file) != WorldFormat::moveit) arguments.refuse({"--robot"}, why);
+  return load_world(file, arguments, execution);
+}
+
 int convert(const Arguments& arguments) {
   const auto file = arguments.value("--output");
   if (!file) throw UsageError("-o FILE is missing");
   is_map_ending(*file) ? check_writable(*file) : check_world_file(*file);
   if (file->ends_with(".yaml")) check_writable(map_image_of(*file));
   if (arguments.has("--simplify")) return simplify_graph(arguments, *file);
-  arguments.refuse({"--world", "--robot", "--clearance"}, "is for --simplify");
+  arguments.refuse({"--world", "--clearance"}, "is for --simplify");
   if (!is_map_ending(*file) && !file->ends_with(".png") && arguments.has("--cell")) {
     throw UsageError("--cell: only maps have cells: .map, .yaml, .pgm and .png");
   }
   const PictureOptions options =
       picture_words(arguments, is_picture(ending_of(*file)), "-o FILE.svg or another picture", *file);
   Run run(arguments);
-  Scene scene = load_world(arguments.operand(0), arguments, run.execution());
+  Scene scene = load_converted(arguments, run.execution());
   const std::string note =
       run.in_stage("write", [&] { return write_any(scene, *file, arguments, options, run.execution()); });
   run.end();
@@ -140,7 +153,7 @@ int export_simplified(const Arguments& arguments, const std::string& file, const
   const Roadmap roadmap = load_roadmap(arguments, run.execution());
   try {
     const serve::RouteGraph whole = serve::graph_of_roadmap(roadmap, run.execution());
-    const Question body{.robot = roadmap.robot, .clearance = roadmap.clearance};
+    const Question body{.robot = serve::body_on_edges(roadmap), .clearance = roadmap.clearance};
     serve::RouteGraph few =
         serve::simplified_in(roadmap.world.whole(run.execution()), body, whole, within, run.execution());
     few.frame = frame;

@@ -55,7 +55,7 @@ int render(const Arguments& arguments) {
   Run run(arguments);
   RecordedAnswer answer;
   if (answer_file) answer = read_answer(*answer_file, run.execution());
-  Scene scene = load_world(arguments.operand(0), arguments, run.execution());
+  Scene scene = load_world(arguments.operand(0), arguments, run.execution(), nullptr, answer.problem.robot);
   Prices& prices = answer.problem.prices;  // the command line's, else the answer's; and the world's
   if (Prices asked = price_words(arguments); !asked.empty()) prices = std::move(asked);
   read_asked_files(answer.problem, arguments, run.execution());

@@ -79,7 +79,8 @@ int verify_answer(const Arguments& arguments) {
   if (const auto proof = arguments.value("--certificate")) {
     answer.certificate = read_potential_npy(InputFile(*proof, run.execution()), run.execution());
   }
-  const Scene scene = load_planned_world(arguments.operand(0), std::nullopt, arguments, run.execution());
+  const Scene scene =
+      load_planned_world(arguments.operand(0), std::nullopt, arguments, run.execution(), nullptr, answer.problem.robot);
   check_not_written(arguments, answer.problem.robot);
   const Verdict verdict = run.in_stage(
       "verify", [&] { return verify_within(scene, question, answer, run.execution()); },

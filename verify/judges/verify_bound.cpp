@@ -397,6 +397,27 @@ class Proof {
 
 }  // namespace
 
+double straight_tour(Vec2 start, std::span<const Vec2> stops, std::optional<Vec2> end) {
+  constexpr double endless = std::numeric_limits<double>::infinity();
+  const std::size_t n = stops.size();
+  const std::size_t all = (std::size_t{1} << n) - 1;
+  std::vector<double> least((all + 1) * n, endless);  // over a set of stops, by the last of them
+  for (std::size_t k = 0; k < n; ++k) least[(std::size_t{1} << k) * n + k] = distance(start, stops[k]);
+  double shortest = endless;
+  for (std::size_t set = 1; set <= all; ++set) {
+    for (std::size_t last = 0; last < n; ++last) {
+      const double way = least[set * n + last];
+      if (set == all) shortest = std::min(shortest, way + (end ? distance(stops[last], *end) : 0.0));
+      for (std::size_t next = 0; next < n; ++next) {
+        if ((set >> next & 1U) != 0) continue;
+        double& there = least[(set | std::size_t{1} << next) * n + next];
+        there = std::min(there, way + distance(stops[last], stops[next]));
+      }
+    }
+  }
+  return shortest;
+}
+
 JudgedBound verify_bound(const Scene& scene, const BoundQuestion& asked, const ClaimedBound& claim,
                          const Execution& execution) {
   const double cost = own_cost(asked.robot, claim);

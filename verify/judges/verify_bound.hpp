@@ -39,6 +39,13 @@ inline constexpr std::size_t most_judged_corners = 2'000;
 /// And given up, some seconds later.
 inline constexpr std::size_t most_judged_legs = 200'000;
 
+/// Places to pass whose orders are compared.
+inline constexpr std::size_t most_judged_stops = 12;
+
+/// The shortest straight way from the start over all of the stops, 1 .. most_judged_stops, in any order, and to the end
+/// where there is one: no path that does it is shorter. O(n^2 2^n).
+double straight_tour(Vec2 start, std::span<const Vec2> stops, std::optional<Vec2> end);
+
 /// A claim, and the path that was judged free, all in the judge's numbers.
 struct ClaimedBound {
   double lower_bound = 0.0;             ///< that the answer claims

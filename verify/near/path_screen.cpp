@@ -8,6 +8,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "core/base/instruction_set.hpp"
 #include "core/base/whole.hpp"
 #include "parallel/chunks.hpp"
 
@@ -27,18 +28,15 @@ struct CoveredCells {
   static constexpr std::size_t block_size = 128;
   alignas(64) std::array<std::int32_t, block_size> column_first, column_last, row_first, row_last;
 
-  /// Finds the cells of block_size walls, and widens the lanes by them.
+  /// Finds the cells of block_size walls, and widens the lanes by them: the same with every instruction set.
   template <class Wall, class Scale, class T>
-  using Work = void (*)(const Wall*, const Scale&, const Scale&, CoveredCells&, WallLanes<T>&);
-  /// The same operations by wider instructions where this processor has them and `plain` is not asked: the same cells.
-  template <class Wall, class Scale, class T>
-  static Work<Wall, Scale, T> fastest(bool plain) {
-#if defined(__x86_64__) && !defined(WARREN_PLAIN)
-    if (!plain && __builtin_cpu_supports("avx2")) return work_avx2<Wall, Scale, T>;
-#else
-    static_cast<void>(plain);
-#endif
-    return work_any<Wall, Scale, T>;
+  [[gnu::always_inline]] static inline void work(const Wall* walls, const Scale& x, const Scale& y, CoveredCells& cells,
+                                                 WallLanes<T>& lanes) {
+    Boxes<T> boxes;
+    find_boxes(walls, boxes);
+    widen(boxes, lanes);
+    find_cells(boxes.x_min, boxes.x_max, x, cells.column_first, cells.column_last);
+    find_cells(boxes.y_min, boxes.y_max, y, cells.row_first, cells.row_last);
   }
 
  private:
@@ -109,27 +107,6 @@ struct CoveredCells {
       last[i] = cell(whole_above(static_cast<double>(high[i]) * axis.per_unit), axis.before_last, axis.end);
     }
   }
-
-  template <class Wall, class Scale, class T>
-  [[gnu::always_inline]] static inline void work(const Wall* walls, const Scale& x, const Scale& y, CoveredCells& cells,
-                                                 WallLanes<T>& lanes) {
-    Boxes<T> boxes;
-    find_boxes(walls, boxes);
-    widen(boxes, lanes);
-    find_cells(boxes.x_min, boxes.x_max, x, cells.column_first, cells.column_last);
-    find_cells(boxes.y_min, boxes.y_max, y, cells.row_first, cells.row_last);
-  }
-  template <class Wall, class Scale, class T>
-  static void work_any(const Wall* walls, const Scale& x, const Scale& y, CoveredCells& cells, WallLanes<T>& lanes) {
-    work(walls, x, y, cells, lanes);
-  }
-#if defined(__x86_64__) && !defined(WARREN_PLAIN)
-  template <class Wall, class Scale, class T>
-  [[gnu::target("avx2")]] static void work_avx2(const Wall* walls, const Scale& x, const Scale& y, CoveredCells& cells,
-                                                WallLanes<T>& lanes) {
-    work(walls, x, y, cells, lanes);
-  }
-#endif
 };
 
 namespace {
@@ -337,7 +314,8 @@ void PathScreen::sift_along(std::span<const Wall> walls, std::size_t first_numbe
   lanes.x_max.fill(Limits::has_infinity ? -Limits::infinity() : Limits::lowest());
   lanes.y_max = lanes.x_max;
   std::size_t budget = 65536 + 64 * walls.size();  // words of cells: for many short walls and a few long ones
-  const auto work = CoveredCells::fastest<Wall, Scale, T>(plain_);
+  const auto set = plain_ ? detail::InstructionSet::baseline : detail::best_instruction_set();
+  const auto work = detail::VersionsOf<&CoveredCells::work<Wall, Scale, T>>::up_to_avx2(set);
   std::array<Wall, block_size> tail;
   for (std::size_t begin = 0; begin < walls.size(); begin += block_size) {
     const std::size_t count = std::min(block_size, walls.size() - begin);

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cassert>
 #include <cstring>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -17,21 +18,29 @@ namespace warren {
 class LookedUpWalls::Reader : public CellWallReader {
  public:
   explicit Reader(const LookedUpWalls& walls) : walls_(walls) {}
+  ~Reader() override {
+    if (rows_.first < rows_.last) walls_.forget_rows(rows_);
+  }
   void read(std::size_t number, CellTile& tile) override {
     walls_.place(number, tile);
+    rows_ = {std::min<std::size_t>(rows_.first, tile.first_row),
+             std::max(rows_.last, std::size_t{tile.first_row} + tile.height)};
     for (std::ptrdiff_t row = -1; row < std::ptrdiff_t{tile.height}; ++row) {
-      for (std::ptrdiff_t col = -1; col < std::ptrdiff_t{tile.width}; ++col) {
-        tile.walls[tile.index(col, row)] =
-            as_whole<std::uint8_t>(walls_.walls_at(std::ptrdiff_t{tile.first_col} + col, tile.first_row + row));
-      }
+      walls_.read_row(std::ptrdiff_t{tile.first_col} - 1, tile.first_row + row,
+                      std::span(tile.walls).subspan(tile.index(-1, row), std::size_t{tile.width} + 1));
     }
   }
 
  private:
   const LookedUpWalls& walls_;
+  Range rows_{std::numeric_limits<std::size_t>::max(), 0};  // looked at
 };
 
 std::unique_ptr<CellWallReader> LookedUpWalls::reader() const { return std::make_unique<Reader>(*this); }
+
+void LookedUpWalls::read_row(std::ptrdiff_t col, std::ptrdiff_t row, std::span<std::uint8_t> walls) const {
+  for (std::uint8_t& cell : walls) cell = as_whole<std::uint8_t>(walls_at(col++, row));
+}
 
 namespace {
 
@@ -66,21 +75,11 @@ std::size_t begin_of_numbers(const std::string& name, std::string_view bytes) {
   return begin;
 }
 
-/// Eight bits as the low bits of eight bytes, in the order of memory.
-using EightBytes = std::array<std::uint8_t, 8>;
-constexpr std::array<EightBytes, 256> bytes_of_bits() {
-  std::array<EightBytes, 256> bytes{};
-  for (unsigned bits = 0; bits < 256; ++bits) {
-    for (unsigned i = 0; i < 8; ++i) bytes[bits][i] = as_whole<std::uint8_t>(bits >> i & 1U);
-  }
-  return bytes;
-}
-constexpr std::array<EightBytes, 256> spread = bytes_of_bits();
-
-/// The walls of eight cells of a row.
-std::uint64_t walls_of(std::uint64_t right, std::uint64_t above) {
-  return std::bit_cast<std::uint64_t>(spread[right & 0xffU]) | std::bit_cast<std::uint64_t>(spread[above & 0xffU])
-                                                                   << 1U;
+static_assert(std::endian::native == std::endian::little, "eight cells are copied as one number");
+/// The low eight bits, from the lowest, as the low bits of eight bytes.
+constexpr std::uint64_t spread(std::uint64_t bits) {
+  const std::uint64_t one_a_byte = (bits & 0xffU) * 0x0101010101010101U & 0x8040201008040201U;
+  return (one_a_byte + 0x7f7f7f7f7f7f7f7fU) >> 7U & 0x0101010101010101U;
 }
 
 }  // namespace
@@ -148,7 +147,7 @@ unsigned JudgedGridLines::walls_at(std::ptrdiff_t col, std::ptrdiff_t row) const
 }
 
 JudgedMazeFile::JudgedMazeFile(const std::string& name, std::string_view bytes, Forget forget)
-    : CellWallSource(side_at(name, bytes, 16), side_at(name, bytes, 24), tile_side_log2),
+    : LookedUpWalls(side_at(name, bytes, 16), side_at(name, bytes, 24), tile_side_log2),
       bytes_(bytes),
       forget_(std::move(forget)) {
   const std::uint64_t bands = (std::uint64_t{rows()} + 255) / 256;
@@ -157,44 +156,25 @@ JudgedMazeFile::JudgedMazeFile(const std::string& name, std::string_view bytes, 
   }
 }
 
-class JudgedMazeFile::Reader : public CellWallReader {
- public:
-  explicit Reader(const JudgedMazeFile& file) : file_(file) {}
-  ~Reader() override {
-    const std::uint64_t stride = row_bytes(file_.cols());
-    if (file_.forget_ && first_ < last_) file_.forget_(first_cell + first_ * stride, first_cell + last_ * stride);
-  }
+/// Left of and below the maze its outline stands, but for the door of the first row. Of a cell the file's lower bit is
+/// its right wall, the other one its upper wall.
+unsigned JudgedMazeFile::walls_at(std::ptrdiff_t col, std::ptrdiff_t row) const {
+  if (col < 0) return row == 0 ? 0U : CellTile::right_wall;
+  if (row < 0) return CellTile::upper_wall;
+  const std::uint64_t bit = 2 * as_whole<std::uint64_t>(col);
+  const std::uint64_t row_begin = first_cell + as_whole<std::uint64_t>(row) * row_bytes(cols());
+  static_assert(CellTile::right_wall == 1 && CellTile::upper_wall == 2);
+  return unsigned{as_whole<unsigned char>(bytes_[row_begin + bit / 8])} >> bit % 8 & 3U;
+}
 
-  void read(std::size_t number, CellTile& tile) override {
-    file_.place(number, tile);
-    first_ = std::min<std::uint64_t>(first_, tile.first_row);
-    last_ = std::max<std::uint64_t>(last_, std::uint64_t{tile.first_row} + tile.height);
-    for (std::ptrdiff_t row = -1; row < std::ptrdiff_t{tile.height}; ++row) {
-      for (std::ptrdiff_t col = -1; col < std::ptrdiff_t{tile.width}; ++col) {
-        tile.walls[tile.index(col, row)] = walls_of(std::ptrdiff_t{tile.first_col} + col, tile.first_row + row);
-      }
-    }
-  }
+void JudgedMazeFile::read_row(std::ptrdiff_t col, std::ptrdiff_t row, std::span<std::uint8_t> walls) const {
+  for (std::uint8_t& cell : walls) cell = as_whole<std::uint8_t>(JudgedMazeFile::walls_at(col++, row));
+}
 
- private:
-  /// Left of and below the maze its outline stands, but for the door of the first row. Of a cell the file's lower bit
-  /// is its right wall, the other one its upper wall.
-  std::uint8_t walls_of(std::ptrdiff_t col, std::ptrdiff_t row) const {
-    if (col < 0) return row == 0 ? 0 : CellTile::right_wall;
-    if (row < 0) return CellTile::upper_wall;
-    const std::uint64_t bit = 2 * as_whole<std::uint64_t>(col);
-    const std::uint64_t row_begin = first_cell + as_whole<std::uint64_t>(row) * row_bytes(file_.cols());
-    const auto bits = as_whole<unsigned char>(file_.bytes_[row_begin + bit / 8]) >> bit % 8;
-    static_assert(CellTile::right_wall == 1 && CellTile::upper_wall == 2);
-    return as_whole<std::uint8_t>(bits & (CellTile::right_wall | CellTile::upper_wall));
-  }
-
-  const JudgedMazeFile& file_;
-  std::uint64_t first_ = std::numeric_limits<std::uint64_t>::max();  // rows looked at
-  std::uint64_t last_ = 0;
-};
-
-std::unique_ptr<CellWallReader> JudgedMazeFile::reader() const { return std::make_unique<Reader>(*this); }
+void JudgedMazeFile::forget_rows(Range rows) const {
+  const std::uint64_t stride = row_bytes(cols());
+  if (forget_) forget_(first_cell + rows.first * stride, first_cell + rows.last * stride);
+}
 
 JudgedNpyMaze::JudgedNpyMaze(const std::string& name, std::string_view bytes, std::uint32_t rows, std::uint32_t cols,
                              Range held, const JudgedMazeFile::Forget& forget, const Execution& execution)
@@ -236,43 +216,18 @@ unsigned JudgedPassages::walls_at(std::ptrdiff_t col, std::ptrdiff_t row) const 
   return (right ? CellTile::right_wall : 0U) | (above ? CellTile::upper_wall : 0U);
 }
 
-class JudgedPassages::Reader : public CellWallReader {
- public:
-  explicit Reader(const JudgedPassages& passages) : passages_(passages) {}
-  void read(std::size_t number, CellTile& tile) override {
-    passages_.place(number, tile);
-    const auto width = std::ptrdiff_t{tile.width};
-    for (std::ptrdiff_t row = 0; row < std::ptrdiff_t{tile.height}; ++row) {
-      const std::size_t word =
-          (tile.first_row + as_whole<std::size_t>(row)) * passages_.words_a_row_ + tile.first_col / 64;
-      const std::uint64_t right = ~passages_.right_[word];
-      const std::uint64_t above = ~passages_.up_[word];
-      std::uint8_t* to = tile.walls.data() + tile.index(0, row);
-      for (std::ptrdiff_t col = 0; col < width; col += 8) {
-        const std::uint64_t walls = walls_of(right >> col, above >> col);
-        std::memcpy(to + col, &walls, as_whole<std::size_t>(std::min<std::ptrdiff_t>(8, width - col)));
-      }
-      look_up(tile, -1, row);
-      look_up(tile, width - 1, row);
-    }
-    for (std::ptrdiff_t col = -1; col < width; ++col) {
-      look_up(tile, col, -1);
-      look_up(tile, col, std::ptrdiff_t{tile.height} - 1);
-    }
-  }
-
- private:
-  /// On the rim of the tile, which may be the maze's.
-  void look_up(CellTile& tile, std::ptrdiff_t col, std::ptrdiff_t row) const {
-    tile.walls[tile.index(col, row)] = as_whole<std::uint8_t>(
-        passages_.walls_at(std::ptrdiff_t{tile.first_col} + col, std::ptrdiff_t{tile.first_row} + row));
-  }
-  const JudgedPassages& passages_;
-};
-
-std::unique_ptr<CellWallReader> JudgedPassages::reader() const {
+void JudgedPassages::read_row(std::ptrdiff_t col, std::ptrdiff_t row, std::span<std::uint8_t> walls) const {
   static_assert(usual_side_log2 == 6, "a tile is as wide as a word");
-  return std::make_unique<Reader>(*this);
+  if (row < 0 || row + 1 == std::ptrdiff_t{rows()}) return LookedUpWalls::read_row(col, row, walls);
+  const std::size_t word = as_whole<std::size_t>(row) * words_a_row_ + as_whole<std::size_t>(col + 1) / 64;
+  const std::uint64_t right = ~right_[word];
+  const std::uint64_t above = ~up_[word];
+  for (std::size_t i = 0; i + 1 < walls.size(); i += 8) {
+    const std::uint64_t eight = spread(right >> i) | spread(above >> i) << 1U;
+    std::memcpy(&walls[i + 1], &eight, std::min<std::size_t>(8, walls.size() - i - 1));
+  }
+  walls.front() = as_whole<std::uint8_t>(walls_at(col, row));  // these may be of the maze's rim
+  walls.back() = as_whole<std::uint8_t>(walls_at(col + std::ssize(walls) - 1, row));
 }
 
 }  // namespace warren

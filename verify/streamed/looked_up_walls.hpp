@@ -26,7 +26,13 @@ class LookedUpWalls : public CellWallSource {
   /// Bits of CellTile: which walls of a cell stand. Columns from -1 to cols() - 1, rows likewise; of column -1 the
   /// right walls alone mean something, of row -1 the upper ones.
   virtual unsigned walls_at(std::ptrdiff_t col, std::ptrdiff_t row) const = 0;
-  std::unique_ptr<CellWallReader> reader() const override;
+  std::unique_ptr<CellWallReader> reader() const final;
+
+ protected:
+  /// walls[i] becomes walls_at(col + i, row), of a row of cells of a tile and of the cell left of it.
+  virtual void read_row(std::ptrdiff_t col, std::ptrdiff_t row, std::span<std::uint8_t> walls) const;
+  /// Called when a reader ends that has looked at these rows.
+  virtual void forget_rows(Range /*rows*/) const {}
 
  private:
   class Reader;
@@ -60,17 +66,19 @@ class JudgedGridLines : public LookedUpWalls {
 // reader takes wrong, this one has not from it.
 
 /// Refers to the file's bytes. Cost: some ns a cell.
-class JudgedMazeFile : public CellWallSource {
+class JudgedMazeFile : public LookedUpWalls {
  public:
   /// Called for bytes first .. last - 1 that a reader has looked at.
   using Forget = std::function<void(std::size_t first, std::size_t last)>;
 
   /// name: of the file. Throws InputError for what is no .maze file of version 1, or has another size.
   JudgedMazeFile(const std::string& name, std::string_view bytes, Forget forget = {});
-  std::unique_ptr<CellWallReader> reader() const override;
+  unsigned walls_at(std::ptrdiff_t col, std::ptrdiff_t row) const override;
 
  private:
-  class Reader;
+  /// Without a virtual call a cell.
+  void read_row(std::ptrdiff_t col, std::ptrdiff_t row, std::span<std::uint8_t> walls) const override;
+  void forget_rows(Range rows) const override;
 
   std::string_view bytes_;
   Forget forget_;
@@ -98,11 +106,11 @@ class JudgedPassages : public LookedUpWalls {
   JudgedPassages(const std::string& where, std::uint32_t rows, std::uint32_t cols, std::span<const std::uint64_t> right,
                  std::span<const std::uint64_t> up);
   unsigned walls_at(std::ptrdiff_t col, std::ptrdiff_t row) const override;
-  /// Reads whole words.
-  std::unique_ptr<CellWallReader> reader() const override;
 
  private:
-  class Reader;
+  /// By whole words.
+  void read_row(std::ptrdiff_t col, std::ptrdiff_t row, std::span<std::uint8_t> walls) const override;
+
   std::span<const std::uint64_t> right_;
   std::span<const std::uint64_t> up_;
   std::size_t words_a_row_;

@@ -43,12 +43,9 @@ NearestWalls nearest_among_cells(const CellWallSource& cells, Range tiles, std::
                                  const VerifyOptions& options, double reach, const Execution& execution);
 
 /// Who looks at the other tiles where the judge looks at some.
-class JudgesElsewhere {
+class JudgesElsewhere : NotCopied {
  public:
-  JudgesElsewhere() = default;
   virtual ~JudgesElsewhere() = default;
-  JudgesElsewhere(const JudgesElsewhere&) = delete;
-  JudgesElsewhere& operator=(const JudgesElsewhere&) = delete;
   /// The tiles that are left to the judge itself.
   virtual Range own_tiles() const = 0;
   /// They begin to look at a path, which stays until take().

@@ -629,40 +629,16 @@ template <class T>
   return motion.judge();
 }
 
-template <class T>
-using ArmJudge = MotionVerdict (*)(const ArmSetup&, const ArmTables<T>&, std::span<const double>,
-                                   std::span<const double>, double);
-
-template <class T>
-MotionVerdict judge_by_any(const ArmSetup& setup, const ArmTables<T>& tables, std::span<const double> q,
-                           std::span<const double> way, double bend_factor) {
-  return judge_by_lanes(setup, tables, q, way, bend_factor);
-}
-#if defined(__x86_64__) && !defined(WARREN_PLAIN)
-template <class T>
-[[gnu::target("avx2")]] MotionVerdict judge_by_avx2(const ArmSetup& setup, const ArmTables<T>& tables,
-                                                    std::span<const double> q, std::span<const double> way,
-                                                    double bend_factor) {
-  return judge_by_lanes(setup, tables, q, way, bend_factor);
-}
-#endif
-
-template <class T>
-ArmJudge<T> judge_by([[maybe_unused]] InstructionSet set) {
-#if defined(__x86_64__) && !defined(WARREN_PLAIN)
-  if (set != InstructionSet::baseline) return judge_by_avx2<T>;
-#endif
-  return judge_by_any<T>;
-}
-
 }  // namespace
 
 MotionVerdict judge_arm_motion(const ArmSetup& setup, std::span<const double> q, std::span<const double> way,
                                InstructionSet set, double bend_factor) {
   if (setup.always_meets) return MotionVerdict::blocked;
   MotionVerdict verdict = MotionVerdict::refused;
-  if (setup.floats_hold) verdict = judge_by<float>(set)(setup, setup.floats, q, way, bend_factor);
-  if (verdict == MotionVerdict::refused) verdict = judge_by<double>(set)(setup, setup.doubles, q, way, bend_factor);
+  const auto by_floats = VersionsOf<&judge_by_lanes<float>>::up_to_avx2(set);
+  const auto by_doubles = VersionsOf<&judge_by_lanes<double>>::up_to_avx2(set);
+  if (setup.floats_hold) verdict = by_floats(setup, setup.floats, q, way, bend_factor);
+  if (verdict == MotionVerdict::refused) verdict = by_doubles(setup, setup.doubles, q, way, bend_factor);
   return verdict == MotionVerdict::free && setup.always_touches ? MotionVerdict::refused : verdict;
 }
 

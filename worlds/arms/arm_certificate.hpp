@@ -39,9 +39,9 @@
 #include <span>
 #include <vector>
 
+#include "core/base/instruction_set.hpp"
 #include "core/run/execution.hpp"
 #include "scenes/scene/arm_model.hpp"
-#include "spatial/points/disc_points.hpp"
 #include "worlds/arms/convex_motion.hpp"
 #include "worlds/poses/certified_motion.hpp"
 

@@ -29,6 +29,7 @@ void refuse_blocked(const RouteGraph& graph, const std::vector<EdgeVerdict>& ver
 }
 
 const EdgeJudge& judge_of(const ServedWorld& world, const Execution& execution) {
+  if (world.query() != nullptr) body_on_edges(world.query()->roadmap());  // which may steer otherwise
   check_drives_edges(world.robot());
   if (world.query() != nullptr && world.query()->roadmap().lattice != nullptr) {
     throw UsageError("a large maze is asked by its lattice, and route graphs are for maps and scenes");

@@ -170,6 +170,7 @@ Answer ServedWorld::ask(const ServedQuestion& question, const Execution& executi
   ByProducts& made = watched != nullptr ? *watched : own;
   ByProducts* const keep = question.explains ? &made : watched;
   Question asked = body_asked(question.robot, question.clearance);
+  if (!is_roadmap_ && !body_.robot) check_headings(outline(), question);
   add_prices(asked.prices, question.prices);
   asked.rule = question.rule;
   asked.route = question.route;

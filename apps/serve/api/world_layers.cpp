@@ -255,9 +255,9 @@ const ClearanceLayer& WorldLayers::clearance(const Execution& execution) const {
 
 const RoadmapLayer& WorldLayers::axis(const Execution& execution) const {
   const RoadmapArrays& arrays = axis_arrays_.get(execution, [&] {
-    const Scene& whole = world_.whole(execution);
+    const Scene& barred = world_.barred(execution);
     return std::make_unique<RoadmapArrays>(
-        built_roadmap(whole, world_.robot(), world_.clearance(), {.kind = GraphKind::axis}, execution).arrays);
+        built_roadmap(barred, world_.robot(), world_.clearance(), {.kind = GraphKind::axis}, execution).arrays);
   });
   return axis_.get(execution, [&] { return std::make_unique<RoadmapLayer>(arrays.parts(), execution); });
 }

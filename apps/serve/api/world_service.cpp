@@ -148,7 +148,8 @@ std::string ground_json(const ServedWorld& world, const Question& body, const Ex
     return json_object("label", layer.label, "color", css_color(layer.fill.value_or(layer.color)), "opacity",
                        layer.opacity, "chains", JsonText{json_chains(chains, execution)});
   };
-  return json_list_of(price_layers(prices_of(outline, body), outline.map, radius, execution), ",", layer_json);
+  const Prices prices = world.query() != nullptr ? world.query()->roadmap().prices : prices_of(outline, body);
+  return json_list_of(price_layers(prices, outline.map, radius, execution), ",", layer_json);
 }
 
 /// warren.service/1: what a page needs to show the world and to ask of this body.

@@ -28,7 +28,13 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& message) { throw HttpError(400, "bad_graph", "graph", message); }
 
+/// It turns at the nodes and goes straight along the edges, as the disc that it is.
+bool is_round_drive(const RobotSpec& robot) {
+  return robot.kind == RobotKind::car && robot.steering == SteeringKind::differential && robot.outline.empty();
+}
+
 RobotSpec disc_around(const RobotSpec& robot) {
+  if (is_round_drive(robot)) return {.kind = RobotKind::disc, .radius = robot.radius};
   if (robot.kind != RobotKind::polygon) return robot;
   return {.kind = RobotKind::disc, .radius = outline_reach(robot.outline)};
 }
@@ -42,13 +48,13 @@ void check_size(std::uint64_t nodes, std::uint64_t edge_ends) {
 }
 
 /// Node v has id v; the i-th edge has that of all nodes and i.
-RouteGraph graph_of(const RoadmapParts& parts, const Execution& execution) {
+RouteGraph graph_of(const RoadmapParts& parts, bool has_headings, const Execution& execution) {
   check_size(parts.vertex_count(), parts.to.size());
   RouteGraph graph;
   for (VertexId v = 0; v < parts.vertex_count(); ++v) {
     const std::span<const double> state = parts.state(v);
     RouteNode node{.id = v, .at = {state[0], state[1]}};
-    if (parts.dimension > 2) node.theta = state[2];
+    if (has_headings) node.theta = state[2];
     graph.nodes.push_back(std::move(node));
   }
   auto id = static_cast<std::uint32_t>(parts.vertex_count());
@@ -247,10 +253,21 @@ class Simplifying {
 
 void check_drives_edges(const RobotSpec& robot) {
   if (robot.kind == RobotKind::point || robot.kind == RobotKind::disc || robot.kind == RobotKind::polygon) return;
-  throw UsageError(robot.kind == RobotKind::car
-                       ? "a car drives curves, and the edges of a route graph are straight; serve the world with "
-                         "--robot of its body alone"
-                       : "route graphs are for bodies of the plane");
+  if (is_round_drive(robot)) return;
+  if (robot.kind != RobotKind::car) throw UsageError("route graphs are for bodies of the plane");
+  throw UsageError(
+      fmt::format("{}; serve the world with --robot of its body alone",
+                  robot.steering == SteeringKind::differential
+                      ? "a drive with an outline has room for some turns at a node and for others not, which a route "
+                        "graph does not say"
+                      : "a car drives curves, and the edges of a route graph are straight"));
+}
+
+RobotSpec body_on_edges(const Roadmap& roadmap) {
+  RobotSpec robot = roadmap.robot;
+  robot.steering = roadmap.options.car.steering.value_or(robot.steering);
+  check_drives_edges(robot);
+  return is_round_drive(robot) ? disc_around(robot) : robot;
 }
 
 EdgeJudge::EdgeJudge(const Scene& scene, const Box& room, RobotSpec robot, double clearance)
@@ -330,11 +347,11 @@ std::vector<RouteEnds> ends_of(const RouteGraph& graph) {
 }
 
 RouteGraph graph_of_roadmap(const Roadmap& roadmap, const Execution& execution) {
-  check_drives_edges(roadmap.robot);
-  if (roadmap.lattice == nullptr) return graph_of(roadmap.arrays.parts(), execution);
+  const bool turns = body_on_edges(roadmap).kind == RobotKind::polygon;
+  if (roadmap.lattice == nullptr) return graph_of(roadmap.arrays.parts(), turns, execution);
   check_size(count_states(roadmap), 0);
   const RoadmapArrays arrays = arrays_of(roadmap.lattice->passages(), execution);
-  return graph_of(arrays.parts(), execution);
+  return graph_of(arrays.parts(), turns, execution);
 }
 
 void check_has_axis(const Scene& scene, const RobotSpec& robot, double clearance) {

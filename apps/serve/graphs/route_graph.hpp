@@ -67,7 +67,7 @@ std::vector<RouteEnds> ends_of(const RouteGraph& graph);
 //
 // A body that turns stands at a place without a heading in all of them: it turns there on the spot, all round, and
 // faces along the edges that it drives. Between two headings it goes straight while it turns evenly the shorter way, as
-// the edges of its roadmaps do. A car can do neither, so it has no such edges.
+// the edges of its roadmaps do. A car can do neither, so it has no such edges; a round differential drive is its disc.
 
 struct EdgePlace {
   Vec2 at;
@@ -112,8 +112,10 @@ class EdgeJudge {
   MadeOnce<ObstacleIndex> index_;
 };
 
-/// Throws UsageError for bodies that drive no straight edges: cars and arms.
+/// Throws UsageError for bodies that drive no straight edges: cars but for round differential drives, and arms.
 void check_drives_edges(const RobotSpec& robot);
+/// A roadmap's body as its route graph has it: a differential drive is a disc. Throws UsageError as above.
+RobotSpec body_on_edges(const Roadmap& roadmap);
 
 /// "cell 3, 4 is 0.1 away, and 0.25 is needed"
 std::string words_of(const EdgeVerdict& verdict);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Requests and answers between Beast's words and ours (http_message.hpp).
+// Requests and answers between Beast's words and ours (http_message.hpp); http_server.cpp, which compiles Beast anyway,
+// has the code.
 #pragma once
 
 #include <boost/beast/http/message.hpp>

@@ -187,7 +187,8 @@ function readPlace() {
 }
 function wireGraph() {
   graph.turns = turns();  // the service's own body, which drives its edges
-  byId("graph").hidden = world.robot.startsWith("car") || (world.asks_roadmap && world.description.endsWith("maze"));
+  const drivesCurves = world.robot.startsWith("car") && !/^car radius .* steering differential$/.test(world.robot);
+  byId("graph").hidden = drivesCurves || (world.asks_roadmap && world.description.endsWith("maze"));
   const container = map.getContainer();
   container.addEventListener("pointerdown", beginDrag, true);
   window.addEventListener("pointermove", goOnDragging);

@@ -22,7 +22,7 @@ Files all_files() {
     for (const auto& file : folder) files[file.name] = {type_of(file.name), file.bytes, file.sha256.substr(0, 16)};
   }
 #else
-  files["index.html"] = {"text/plain; charset=utf-8",
+  files["index.html"] = {type_of(".txt"),
                          "This program was built without Leaflet (Debian: libjs-leaflet), so it shows no page. "
                          "Programs ask /api/world and what docs/service.md says of it.\n",
                          "without-leaflet"};

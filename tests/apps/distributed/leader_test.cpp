@@ -204,7 +204,7 @@ TEST(Leader, BandsCoverAllRowsOnce) {
     for (unsigned ranks = 1; ranks < 12; ++ranks) {
       std::size_t next = 0;
       for (unsigned rank = 0; rank < ranks; ++rank) {
-        const TileRows band = band_rows(rows, rank, ranks);
+        const Range band = band_rows(rows, rank, ranks);
         EXPECT_EQ(band.first, next);
         next = band.last;
         for (std::size_t row = band.first; row < band.last; ++row) EXPECT_EQ(rank_of_row(row, rows, ranks), rank);

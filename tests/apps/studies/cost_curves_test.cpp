@@ -118,6 +118,14 @@ TEST(CostCurve, WhereNobodyFindsAPathThereArePlotsAllTheSame) {
   }
 }
 
+TEST(SolvedShare, WhereNobodyFindsAPathTheAxisReachesFromNoneToAll) {
+  for (const char* name : {"anytime", "prm"}) {
+    const std::vector<PlotSheet> panels = comparison_panels(compared({planner(name, {{}, {}}, 1.0)}));
+    ASSERT_EQ(panels.back().title(), "town: solved");
+    EXPECT_NE(panels.back().svg().find(">100<"), std::string::npos) << name;
+  }
+}
+
 TEST(CostCurve, AsCsvItHasEveryPathAndALineForEachRunWithoutOne) {
   Comparison comparison = compared({planner("anytime", {{{0.1, 30}, {0.4, 20.5}}, {}}, 1.0)});
   comparison.contenders[0].runs[0].lower_bound = 16.0;

@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "tests/planners/trees/sampled_problems.hpp"
@@ -107,6 +108,23 @@ TEST(Anytime, MemoryForTheJudgeIsKeptBackOnceThereIsAPath) {
     if (!alone) alone = found;
     EXPECT_EQ(found.iterations, alone->iterations);
     EXPECT_EQ(found.cost, alone->cost);
+  }
+}
+
+/// Roadmap and trees grow side by side: what one is granted does not depend on what the others hold at that moment.
+TEST(Anytime, MemoryEndsTheSameTurnForAnyThreads) {
+  const auto problem = sampled_problems::body(3);
+  const Deadline all(std::numeric_limits<double>::infinity(), resident_bytes() + (std::size_t{1} << 32U));
+  for (const std::size_t bytes : {std::size_t{1} << 18U, std::size_t{1} << 20U, std::size_t{3} << 20U}) {
+    std::optional<AnytimeSolution<Se2>> alone;
+    for (const unsigned threads : {1U, 2U, 8U}) {
+      SCOPED_TRACE(std::to_string(bytes) + " bytes, threads " + std::to_string(threads));
+      const Deadline counted(&all, CountedRoom{bytes});
+      const auto found = plan(problem, turns(1'000'000), {.threads = threads, .deadline = &counted});
+      EXPECT_EQ(found.ended_by, "memory");
+      if (!alone) alone = found;
+      expect_same(found, *alone);
+    }
   }
 }
 

@@ -13,6 +13,7 @@
 #include "core/base/rng.hpp"
 #include "planners/graph/components.hpp"
 #include "tests/parallel/on_threads.hpp"
+#include "tests/refusals.hpp"
 #include "tests/seeds.hpp"
 
 namespace warren {
@@ -121,12 +122,7 @@ TEST(AssembleGraph, LengthsStandBesideTheirEdges) {
 
 TEST(AssembleGraph, BadEdgesAreNamed) {
   const auto message = [](const std::vector<RawVector<Edge>>& parts) {
-    try {
-      assemble_graph(3, parts, on(1));
-    } catch (const InputError& e) {
-      return std::string(e.what());
-    }
-    return std::string();
+    return test::refusal<InputError>([&] { assemble_graph(3, parts, on(1)); });
   };
   EXPECT_EQ(message({{{0, 3}}}), "graph: an edge's end is not a vertex (found: 3)");
   EXPECT_EQ(message({{{0, 1}}, {{2, 2}}}), "graph: an edge joins a vertex to itself");

@@ -204,11 +204,11 @@ TEST(SearchStates, AreAskedForBeforeTheyGrow) {
   auto nowhere = [](VertexId, const auto&) {};
   const auto zero = [](VertexId) { return 0.0; };
   const auto no_estimate = [](VertexId, VertexId) { return 0.0; };
-  constexpr std::size_t a_bit = 1 << 20;
+  std::size_t beyond = 1 << 20;  // of what is held, to the limit
   const auto end = static_cast<VertexId>(alone.vertex_count() - 1);
   const auto is_refused = [&](const auto& search) {
     give_freed_pages_back();  // of other tests: they are given back before anything is refused
-    const Deadline deadline(std::numeric_limits<double>::infinity(), resident_bytes() + a_bit);
+    const Deadline deadline(std::numeric_limits<double>::infinity(), resident_bytes() + beyond);
     Execution execution;
     execution.deadline = &deadline;
     return !memory_holds([&] { search(execution); });
@@ -219,14 +219,22 @@ TEST(SearchStates, AreAskedForBeforeTheyGrow) {
     search_best_first(QueueKind::heap, alone.vertex_count(), 0, end, nowhere, zero, state, execution);
   };
   EXPECT_TRUE(is_refused(best));
-  EXPECT_TRUE(is_refused(
-      [&](const Execution& execution) { search_blindly(SearchKind::dfs, alone, 0, end, state, execution); }));
-  EXPECT_TRUE(is_refused([&](const Execution& execution) {
+  const auto blind = [&](const Execution& execution) {
+    search_blindly(SearchKind::dfs, alone, 0, end, state, execution);
+  };
+  EXPECT_TRUE(is_refused(blind));
+  const auto from_both = [&](const Execution& execution) {
     const ImplicitSearch asked{VertexDistance(no_estimate), true, QueueKind::heap, alone.vertex_count(), execution};
     search_implicit_from_both_ends({AnyNeighbours(nowhere), AnyNeighbours(nowhere)}, {0, end}, asked,
                                    {&states[0], &states[1]});
-  }));
+  };
+  EXPECT_TRUE(is_refused(from_both));
   EXPECT_TRUE(is_refused([&](const Execution& execution) { reached_and_reaching(alone, 0, end, execution); }));
+  beyond = 28'000'000;
+  EXPECT_TRUE(is_refused(best)) << "with all vertices in its heap it holds 32 bytes of each";
+  EXPECT_FALSE(is_refused(blind)) << "without a heap at most 24";
+  beyond = 50'000'000;
+  EXPECT_TRUE(is_refused(from_both)) << "and so do both of its sides";
   state.resize(alone.vertex_count());
   EXPECT_FALSE(is_refused([&](const Execution& execution) {
     search_blindly(SearchKind::bfs, alone, 0, end, state, execution);

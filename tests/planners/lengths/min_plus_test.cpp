@@ -12,6 +12,8 @@
 namespace warren {
 namespace {
 
+using detail::InstructionSet;
+
 std::uint32_t below(std::uint32_t end, std::uint64_t seed, std::uint64_t index, std::uint64_t axis) {
   return static_cast<std::uint32_t>(random_bits(seed, index, axis) % end);
 }
@@ -27,7 +29,7 @@ TEST(MinPlus, RowsOfAllLengthsAndInstructionSets) {
       rest[i] = below(5, count, i, 2) == 0 ? no_way : below(70000, count, i, 3);
       expected[i] = std::min(least[i], first + rest[i]);
     }
-    for (const LessenRow<std::uint32_t> lessen : {lessen_row<std::uint32_t>(), &lessen_row_plain<std::uint32_t>}) {
+    for (const auto lessen : {lessen_row<std::uint32_t>(), lessen_row<std::uint32_t>(InstructionSet::baseline)}) {
       std::vector<std::uint32_t> found = least;
       lessen(found.data(), rest.data(), first, count);
       EXPECT_EQ(found, expected) << count;
@@ -50,7 +52,7 @@ TEST(MinPlus, RowsThatKeepByWhatTheyBecameSmaller) {
       expected[i] = std::min(least[i], first + rest[i]);
       expected_by[i] = expected[i] < least[i] ? 1000 : by[i];
     }
-    for (const LessenRowBy lessen : {lessen_row_by(), &lessen_row_by_plain}) {
+    for (const LessenRowBy lessen : {lessen_row_by(), lessen_row_by(InstructionSet::baseline)}) {
       std::vector<std::uint32_t> found = least;
       std::vector<std::uint32_t> found_by = by;
       lessen(found.data(), found_by.data(), rest.data(), first, 1000, count);
@@ -71,7 +73,7 @@ TEST(MinPlus, ShortRowsHaveNoWaysOfTheirOwn) {
       rest[i] = static_cast<std::uint16_t>(0xffff - below(3, count, i, 2));
       expected[i] = rest[i] == no_short_way ? least[i] : std::min(least[i], first + rest[i]);
     }
-    for (const LessenRow<std::uint16_t> lessen : {lessen_row<std::uint16_t>(), &lessen_row_plain<std::uint16_t>}) {
+    for (const auto lessen : {lessen_row<std::uint16_t>(), lessen_row<std::uint16_t>(InstructionSet::baseline)}) {
       std::vector<std::uint32_t> found = least;
       lessen(found.data(), rest.data(), first, count);
       EXPECT_EQ(found, expected) << count;

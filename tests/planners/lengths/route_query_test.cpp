@@ -14,6 +14,7 @@
 #include "core/run/trace.hpp"
 #include "planners/lengths/tree_routes.hpp"
 #include "tests/planners/lengths/lattice_mazes.hpp"
+#include "tests/refusals.hpp"
 #include "tests/seeds.hpp"
 
 namespace warren {
@@ -206,12 +207,7 @@ TEST(RouteQuery, ManyHopsAreWrittenByAnyNumberOfThreads) {
 TEST(RouteQuery, CellsOutsideTheLatticeAreRefused) {
   const RouteIndex index(maze_passages({4, 5, 1, MazeAlgorithm::kruskal, 0.0}), {}, {});
   RouteQuery query(index);
-  try {
-    query.length(3, 20);
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "cell: must be below 20 (found: 20)");
-  }
+  EXPECT_EQ(test::refusal<InputError>([&] { query.length(3, 20); }), "cell: must be below 20 (found: 20)");
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <set>
 #include <string>
 
@@ -11,6 +12,7 @@
 #include "planners/shorten/shortcut.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "solve/kinds/planned_worlds.hpp"
+#include "tests/refusals.hpp"
 #include "tests/seeds.hpp"
 #include "tests/worlds/poses/body_scenes.hpp"
 #include "verify/judges/verify_point.hpp"
@@ -122,6 +124,23 @@ TEST(RrtConnect, GoesOverFreePlacesToTheNearestGoal) {
   expect_verified(scene, kite, solution.path, {.start = easy_start, .goal = goals[1]});
 }
 
+/// No step leaves the cell of the goals, and these are so many that the start's tree grows alone.
+TEST(RrtConnect, GoesAStepOnTowardsItsSampleWhereThereAreDomains) {
+  Scene scene;
+  scene.bounds = Box{{0, 0}, {100, 100}};
+  const std::vector<Vec2> cell{{89.5, 89.5}, {90.6, 89.5}, {90.6, 90.5}, {89.5, 90.5}};
+  std::vector<Segment> walls;
+  for (std::size_t i = 0; i < 4; ++i) walls.push_back({cell[i], cell[(i + 1) % 4]});
+  scene.walls = WallSet::narrowest(walls);
+  const MazeWorld world(scene, 1e-6, {});
+  std::vector<Vec2> goals;
+  for (int i = 0; i < 600; ++i) goals.push_back({90.0 + 1e-4 * i, 90.0});
+  const RrtOptions options{.sampler = SamplerKind::uniform, .step = 1.0, .domain = 1e6, .nodes = 900};
+  const auto found = rrt_connect(WorldView(world), Vec2{50, 50}, goals, options, {});
+  EXPECT_EQ(found.outcome, Outcome::not_connected);
+  EXPECT_LT(found.counters.samples + 50, found.roadmap.milestones - goals.size()) << "one state a sample";
+}
+
 TEST(Rrt, SolvesScatteredScenesWithEverySampler) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const Scene scene = body_scenes::scattered(seed);
@@ -198,6 +217,39 @@ TEST(Rrt, IsTheSameForAnyNumberOfThreadsAndTrees) {
         EXPECT_EQ(solution.roadmap.milestones, all.front().roadmap.milestones);
       }
     }
+  }
+}
+
+/// They grow side by side, and none sees what the others have been granted.
+TEST(Rrt, EachOfMoreTreesAsksForTheRoomOfAll) {
+  using View = AnyWorld<Se2>;
+  const Scene scene = poly_easy();
+  const Se2World world(scene, kite, {});
+  const WorldView view(world);
+  const std::span<const Se2> goal(&easy_goal, 1);
+  const Deadline whole(std::numeric_limits<double>::infinity(), resident_bytes() + (std::size_t{1} << 32U));
+  const auto asked = [&](const auto& grow) {
+    constexpr std::size_t all = std::size_t{1} << 20U;
+    const Deadline counted(&whole, CountedRoom{all});
+    grow(Execution{.deadline = &counted});
+    return all - counted.room();
+  };
+  const std::size_t alone = asked([&](const Execution& execution) {
+    MotionTree<View> tree(view, GrowthDirection::forward);
+    tree.add_root(easy_start);
+    tree.ask_room(execution);
+  });
+  EXPECT_GT(alone, 0U);
+  for (const std::uint32_t trees : {1U, 4U}) {
+    const RrtOptions options{.trees = trees};
+    const std::size_t of_rrt = asked([&](const Execution& execution) {
+      detail::RrtSearch<View>(view, easy_start, goal, options, 0.5, 1).advance(1, execution);
+    });
+    const std::size_t of_pair = asked([&](const Execution& execution) {
+      detail::RrtConnectSearch<View>(view, easy_start, goal, options, 0.5, 1).advance(1, execution);
+    });
+    EXPECT_EQ(of_rrt, trees * alone);
+    EXPECT_GE(of_pair, 2 * trees * alone);
   }
 }
 
@@ -280,15 +332,8 @@ TEST(Rrt, ServesPointsAmongWallsToo) {
 }
 
 TEST(Rrt, RefusesOptionsOutOfRange) {
-  const auto message = [](const RrtOptions& options) {
-    try {
-      options.validate();
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string("nothing");
-  };
-  EXPECT_EQ(message({}), "nothing");
+  const auto message = [](const RrtOptions& asked) { return test::refusal<InputError>([&] { asked.validate(); }); };
+  EXPECT_EQ(message({}), "");
   EXPECT_EQ(message({.step = 0.0}).substr(0, 4), "step");
   EXPECT_EQ(message({.domain = 0.5}).substr(0, 6), "domain");
   EXPECT_EQ(message({.moving = 0.0}).substr(0, 6), "moving");

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,8 @@
 #include "core/base/rng.hpp"
 #include "scenes/files/read_world_io.hpp"
 #include "scenes/files/scene_io.hpp"
+#include "tests/refusals.hpp"
+#include "tests/scenes/files/temporary_directory.hpp"
 #include "tests/seeds.hpp"
 
 namespace warren {
@@ -174,8 +177,8 @@ TEST(MoveIt, ADefaultThatForbidsWins) {
   EXPECT_EQ(allowed("[a, b]", "[true, true]"), (Pairs{{"a", "c"}, {"b", "c"}, {"b", "a"}}));
 }
 
-/// Objects and goals stand in the root's frame, or are refused.
-TEST(MoveIt, FramesAreTheRootsOrRefused) {
+/// Without a robot objects and goals stand in the root's frame, or are refused.
+TEST(MoveIt, FramesThatNobodyKnowsAreRefused) {
   const auto scene = [](const std::string& object, const std::string& more) {
     return with(scene_text, "    - id: ball", "    - id: ball\n      header: {frame_id: " + object + "}") + more;
   };
@@ -186,14 +189,9 @@ TEST(MoveIt, FramesAreTheRootsOrRefused) {
   EXPECT_NO_THROW(read_moveit(scene("base", fixed)));
   EXPECT_NO_THROW(read_moveit(with(scene("base", ""), "joint_state:", "joint_state:\n    header: {frame_id: base}")));
   const auto expect_refused = [](const auto& read, const std::string& place, const std::string& frame) {
-    try {
-      read();
-      ADD_FAILURE() << "accepted " << frame;
-    } catch (const InputError& error) {
-      const std::string what = error.what();
-      EXPECT_TRUE(what.starts_with(place + ": poses are read in the frame of the robot's root")) << what;
-      EXPECT_TRUE(what.ends_with("(found: " + frame + ")")) << what;
-    }
+    const std::string said = test::refusal<InputError>(read);
+    EXPECT_TRUE(said.starts_with(place + ": nobody says where this frame is")) << frame << ' ' << said;
+    EXPECT_TRUE(said.ends_with("(found: " + frame + ")")) << frame << ' ' << said;
   };
   for (const std::string frame : {"hand", "base"})
     expect_refused([&] { read_moveit(scene(frame, "")); }, "a.yaml:36", frame);
@@ -211,8 +209,121 @@ TEST(MoveIt, FramesAreTheRootsOrRefused) {
   expect_refused([&] { request("world", "hand"); }, "a.yaml:3", "hand");
 }
 
+/// A post that stands at 1 0 0, turned to the left; on it an arm that turns, a hand on it, a palm that slides on that.
+const std::string post_urdf = R"(<robot name="r">
+<link name="base"/><link name="post"/><link name="arm"/><link name="hand"/><link name="palm"/>
+<joint name="set" type="fixed"><parent link="base"/><child link="post"/><origin xyz="1 0 0" rpy="0 0 1.5707963267948966"/></joint>
+<joint name="turn" type="revolute"><parent link="post"/><child link="arm"/><axis xyz="0 0 1"/><limit lower="-2" upper="2"/></joint>
+<joint name="tip" type="fixed"><parent link="arm"/><child link="hand"/><origin xyz="0 0 1"/></joint>
+<joint name="slide" type="prismatic"><parent link="hand"/><child link="palm"/><axis xyz="1 0 0"/><limit lower="0" upper="1"/></joint>
+</robot>)";
+
+/// Scenes and requests of the robot of post_urdf.
+class MoveItFrame : public ::testing::Test {
+ protected:
+  MoveItFrame() { frames_.robot = ArmFiles{.urdf = directory_.write("post.urdf", post_urdf)}; }
+  Scene read(const std::string& text) {
+    frames_.named.clear();
+    return read_scene(file_of(text), {}, MapServerRules::nav2, &frames_);
+  }
+  /// Where the ball is that stands at 3 2 1 in this frame. more: of the scene.
+  Vec3 ball_in(const std::string& frame, const std::string& more = "") {
+    const Sphere ball = read(ball_text(frame) + more).spheres.at(0);
+    return {ball.x, ball.y, ball.z};
+  }
+  static std::string ball_text(const std::string& frame) {
+    return with(scene_text, "    - id: ball", "    - id: ball\n      header: {frame_id: " + frame + "}");
+  }
+  /// Of a scene whose state says nothing of joint turn.
+  static std::string without_turn(const std::string& text) {
+    return with(text, "name: [turn, slide]\n    position: [0.5, 0.25]", "name: [slide]\n    position: [0.25]");
+  }
+  void expect_refused(const std::string& text, const std::string& says) {
+    const std::string said = test::refusal<InputError>([&] { read(text); });
+    EXPECT_NE(said.find(says), std::string::npos) << said;
+  }
+
+  TemporaryDirectory directory_;
+  MoveItFrames frames_;
+};
+
+TEST_F(MoveItFrame, OfALinkIsWhereTheStateHasIt) {
+  const Eigen::Isometry3d post = Eigen::Translation3d(1, 0, 0) * Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitZ());
+  const Eigen::Isometry3d palm = post * Eigen::AngleAxisd(0.5, Vec3::UnitZ()) * Eigen::Translation3d(0.25, 0, 1);
+  EXPECT_EQ(ball_in("base"), Vec3(3, 2, 1));
+  EXPECT_TRUE(ball_in("post").isApprox(Vec3(-1, 3, 1), 1e-12));
+  EXPECT_TRUE(ball_in("palm").isApprox(palm * Vec3(3, 2, 1), 1e-12));
+  expect_refused(without_turn(ball_text("palm")),
+                 "a.yaml:36: this link moves with joint turn; the scene's `joint_state` must say where");
+}
+
+/// Of objects that stand before, and their subframes; the ball, which has one shape and no pose, is where its shape is.
+TEST_F(MoveItFrame, OfAnObjectIsWhereTheObjectIs) {
+  EXPECT_TRUE(ball_in("can").isApprox(Vec3(-1, 3, 1), 1e-12));
+  const std::string lid =
+      with(ball_text("can/lid"), "    - id: can",
+           "    - id: can\n      subframe_names: [lid]\n      subframe_poses: [{position: [0, 0, 2]}]");
+  EXPECT_NEAR(read(lid).spheres.at(0).z, 3.0, 1e-12);
+  const Scene on_ball = read(with(scene_text, "    - id: wedge", "    - id: wedge\n      header: {frame_id: ball}"));
+  EXPECT_EQ(std::ranges::count(on_ball.solids.at(2).corners, Vec3(3, 2, 4)), 1);
+  expect_refused(ball_text("wedge"), "a.yaml:36: nobody says where this frame is");
+}
+
+/// As MoveIt has fixed frames: the header's frame in that of the child, which is the root's.
+TEST_F(MoveItFrame, OfAFixedFrameIsWhereItStandsInTheRoots) {
+  const auto fixed = [](const std::string& name, const std::string& to) {
+    return "fixed_frame_transforms: [{header: {frame_id: " + name + "}, child_frame_id: " + to +
+           ", transform: {translation: [0, 0, 1], rotation: [0, 0, 1, 1]}}]\n";
+  };
+  const Vec3 there(-2, 3, 2);
+  EXPECT_TRUE(ball_in("table", fixed("table", "base")).isApprox(there, 1e-12));
+  EXPECT_TRUE(ball_in("table", fixed("table", "world")).isApprox(there, 1e-12));
+  EXPECT_TRUE(ball_in("world", fixed("world", "base")).isApprox(there, 1e-12));
+  for (const auto& [name, to] : {std::pair("base", "table"), {"world", "table"}, {"table", "post"}, {"table", "arm"}})
+    expect_refused(ball_text("world") + fixed(name, to), "`child_frame_id`, which must be the robot's root: world, ");
+  frames_.robot.reset();
+  EXPECT_TRUE(ball_in("table", fixed("table", "world")).isApprox(there, 1e-12));
+  expect_refused(ball_text("table") + fixed("table", "base"), "must be the robot's root");
+}
+
+/// Where the frame moves with the link that carries, or the state says where both are.
+TEST_F(MoveItFrame, OfWhatIsCarriedIsPlacedAgainstItsLink) {
+  const auto cup_in = [&](const std::string& frame, const std::string& text) -> Vec3 {
+    return read(with(text, "frame_id: hand", "frame_id: " + frame)).arm->attached.at(0).solid.pose.translation();
+  };
+  const std::string no_turn = without_turn(scene_text);
+  EXPECT_TRUE(cup_in("arm", scene_text).isApprox(Vec3(0, 0, -0.9), 1e-12));
+  EXPECT_TRUE(cup_in("post", scene_text).isApprox(Vec3(0, 0, -0.9), 1e-12));
+  EXPECT_TRUE(cup_in("arm", no_turn).isApprox(Vec3(0, 0, -0.9), 1e-12));
+  expect_refused(with(no_turn, "frame_id: hand", "frame_id: post"), "what is attached must be in the frame hand, or");
+}
+
+/// What the scene names its request knows, too; a goal in the frame of a link that moves would move with it.
+TEST_F(MoveItFrame, OfAGoalStandsStill) {
+  const auto goal_in = [&](const std::string& place, const std::string& turn) {
+    Scene scene = read(scene_text);
+    take_moveit_request(
+        scene,
+        file_of("goal_constraints:\n- position_constraints: [{header: {frame_id: " + place +
+                "}, constraint_region: {primitive_poses: [{position: [1, 2, 3]}]}}]\n" +
+                "  orientation_constraints: [{header: {frame_id: " + turn + "}, orientation: [0, 0, 0, 1]}]\n"),
+        {}, frames_);
+    return scene.goal_pose.value();
+  };
+  const Eigen::Isometry3d goal = goal_in("post", "can");
+  EXPECT_TRUE(goal.translation().isApprox(Vec3(-1, 1, 3), 1e-12));
+  EXPECT_TRUE((goal.linear() * Vec3::UnitX()).isApprox(Vec3::UnitY(), 1e-12));
+  for (const auto& ends : {std::pair("palm", "base"), {"base", "palm"}}) {
+    const std::string said = test::refusal<InputError>([&] { goal_in(ends.first, ends.second); });
+    EXPECT_NE(said.find("this link moves with joint slide; give the goal in a frame"), std::string::npos) << said;
+  }
+}
+
 TEST(MoveIt, BecomesASceneThatReadsBackTheSame) {
-  Scene scene = read_moveit(scene_text);
+  const std::string carried = with(with(scene_text, "[base]", "[base, pan]"), "[true]\n", "[true, true]\n");
+  Scene scene = read_moveit(with(carried, "world:",
+                                 "    - {link_name: palm, object: {id: pan, primitives: [{type: sphere, dimensions: "
+                                 "[0.1]}], primitive_poses: [{}]}}\nworld:"));
   take_moveit_request(scene, file_of(request_text), {});
   std::string text;
   write_scene_text(scene, [&](std::string_view part) { text += part; }, {});
@@ -220,6 +331,12 @@ TEST(MoveIt, BecomesASceneThatReadsBackTheSame) {
   EXPECT_EQ(scene_hash(back), scene_hash(scene));
   EXPECT_EQ(back.arm->held, scene.arm->held);
   EXPECT_EQ(back.arm->allowed, scene.arm->allowed);
+  ASSERT_EQ(back.arm->attached.size(), 2U);
+  EXPECT_EQ(std::ranges::count(back.arm->attached[0].may_touch, std::string("pan")), 1) << "two that are carried";
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(back.arm->attached[i].may_touch, scene.arm->attached[i].may_touch);
+    EXPECT_EQ(back.arm->attached[i].solid.name, i == 0 ? "cup" : "pan") << "which the other one may touch";
+  }
   EXPECT_TRUE(back.arm->said.empty()) << "the robot may lack what a scene of MoveIt names";
   EXPECT_EQ(back.named_goals.size(), 2U);
 }
@@ -278,7 +395,9 @@ TEST(MoveIt, RefusesWhatItDoesNotRead) {
       {with(scene_text, "[turn, slide]", "[turn, turn]"), "a.yaml:14: this joint stands here twice (found: turn)"},
       {with(scene_text, "[turn, slide]", "[turn, \"sl ide\"]"), "a.yaml:14: `name` must be a name without blanks"},
       {with(scene_text, "world:", "fixed_frame_transforms: [{transform: {translation: [1, 0, 0]}}]\nworld:"),
-       "a.yaml:24: frames must stand at 0 0 0"},
+       "a.yaml:24: `transform` is where the frame of `header` stands"},
+      {with(scene_text, "    - id: ball", "    - id: ball\n      subframe_poses: [{}]"),
+       "a.yaml:35: `subframe_poses` must have as many items as `subframe_names`"},
       {scene_text + "  : [", "a.yaml:"},
       // What would be an obstacle, were its key another one:
       {with(scene_text, "world:", "scene:"), "a.yaml:24: no key of a planning scene of MoveIt, which are name, "},
@@ -300,12 +419,8 @@ TEST(MoveIt, RefusesWhatItDoesNotRead) {
        "a.yaml:37: no key of a pose, which are position, orientation (found: xyz)"},
   };
   for (const auto& [text, expected] : scenes) {
-    try {
-      read_moveit(text);
-      ADD_FAILURE() << "accepted, expected " << expected;
-    } catch (const InputError& error) {
-      EXPECT_EQ(std::string(error.what()).substr(0, expected.size()), expected);
-    }
+    const std::string said = test::refusal<InputError>([&, &text = text] { read_moveit(text); });
+    EXPECT_EQ(said.substr(0, expected.size()), expected);
   }
   const std::string both = "goal_constraints: [{joint_constraints: [1], position_constraints: [1]}]";
   const std::string one_arm = "group_name: one_arm\n";
@@ -351,12 +466,11 @@ TEST(MoveIt, AnyBytesAreReadOrRefusedInOneLine) {
         text.erase(at, rng.below(20));
       }
     }
-    try {
+    const std::string said = test::refusal<InputError>([&] {
       Scene scene = is_request ? Scene() : read_moveit_scene(file_of(text), {});
       if (is_request) take_moveit_request(scene, file_of(text), {});
-    } catch (const InputError& error) {
-      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << seed;
-    }
+    });
+    EXPECT_EQ(said.find('\n'), std::string::npos) << seed;
   }
 }
 

@@ -15,6 +15,7 @@
 #include "core/base/rng.hpp"
 #include "scenes/arms/arm_files_io.hpp"
 #include "scenes/scene/convex_hull.hpp"
+#include "tests/refusals.hpp"
 #include "tests/scenes/arms/test_meshes.hpp"
 #include "tests/scenes/files/temporary_directory.hpp"
 #include "tests/seeds.hpp"
@@ -74,13 +75,9 @@ std::string mutated(std::string text, std::uint64_t seed) {
 /// Reads it, or is refused in one line.
 template <class Read>
 bool taken(const Read& read) {
-  try {
-    read();
-    return true;
-  } catch (const PlacedError& error) {
-    EXPECT_EQ(std::string_view(error.what()).find('\n'), std::string_view::npos) << error.what();
-  }
-  return false;
+  const std::string said = test::refusal<PlacedError>(read);
+  EXPECT_EQ(said.find('\n'), std::string::npos) << said;
+  return said.empty();
 }
 
 std::vector<std::uint64_t> mutation_seeds() { return test::seeds(1200, 60); }

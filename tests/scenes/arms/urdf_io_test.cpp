@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "tests/refusals.hpp"
 #include "tests/scenes/arms/test_meshes.hpp"
 #include "tests/scenes/files/temporary_directory.hpp"
 
@@ -86,13 +87,9 @@ class Urdf : public ::testing::Test {
   }
   void expect_refused(const std::string& text, const ArmFiles& files, const std::string& says) const {
     SCOPED_TRACE(says);
-    try {
-      read(text, files);
-      ADD_FAILURE() << "was taken";
-    } catch (const PlacedError& error) {
-      EXPECT_NE(std::string(error.what()).find(says), std::string::npos) << error.what();
-      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
-    }
+    const std::string said = test::refusal<PlacedError>([&] { read(text, files); });
+    EXPECT_NE(said.find(says), std::string::npos) << said;
+    EXPECT_EQ(said.find('\n'), std::string::npos);
   }
 
   TemporaryDirectory directory_;
@@ -297,6 +294,12 @@ TEST_F(Urdf, CarriedBodiesMoveWithTheirLink) {
   EXPECT_TRUE(has(all, "trunk tray"));
   EXPECT_FALSE(has(all, "head tray"));
   EXPECT_FALSE(has(all, "left_hand tray"));
+  Solid cap = tray;
+  cap.name = "cap";
+  files.attached.push_back({"head", cap, {}});
+  EXPECT_TRUE(has(pairs(read(two_arms(), files)), "tray cap"));
+  files.attached[0].may_touch = {"cap"};
+  EXPECT_FALSE(has(pairs(read(two_arms(), files)), "tray cap")) << "by its name";
   files.attached[0].link = "nobody";
   expect_refused(two_arms(), files, "no link of this name to attach a body to (found: nobody)");
 }

@@ -8,6 +8,7 @@
 
 #include "core/base/error.hpp"
 #include "scenes/files/read_world_io.hpp"
+#include "tests/refusals.hpp"
 #include "tests/scenes/files/temporary_directory.hpp"
 
 namespace warren {
@@ -93,13 +94,10 @@ TEST(Micromouse, RefusesWithFileAndLine) {
   };
   for (const auto& [text, expected] : cases) {
     SCOPED_TRACE(expected);
-    try {
-      read_world(directory.write("bad.txt", text), {});
-      ADD_FAILURE() << "accepted";
-    } catch (const InputError& error) {
-      EXPECT_EQ(std::string(error.what()).find(directory.file("bad.txt")), 0U) << error.what();
-      EXPECT_NE(std::string(error.what()).find(expected), std::string::npos) << error.what();
-    }
+    const std::string file = directory.write("bad.txt", text);
+    const std::string said = test::refusal<InputError>([&] { read_world(file, {}); });
+    EXPECT_EQ(said.find(file), 0U) << said;
+    EXPECT_NE(said.find(expected), std::string::npos) << said;
   }
 }
 
@@ -144,12 +142,9 @@ TEST(Micromouse, NumbersThatAreNoMazeAreRefusedAsSuch) {
       {"nothing\n", ":1: expected X Y N E S W"}};
   for (const auto& [text, expected] : cases) {
     SCOPED_TRACE(expected);
-    try {
-      read_world(directory.write("m.num", text), {});
-      ADD_FAILURE() << "accepted";
-    } catch (const InputError& error) {
-      EXPECT_NE(std::string(error.what()).find(expected), std::string::npos) << error.what();
-    }
+    const std::string file = directory.write("m.num", text);
+    const std::string said = test::refusal<InputError>([&] { read_world(file, {}); });
+    EXPECT_NE(said.find(expected), std::string::npos) << said;
   }
 }
 

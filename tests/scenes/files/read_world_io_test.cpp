@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/base/error.hpp"
+#include "tests/refusals.hpp"
 #include "tests/scenes/files/temporary_directory.hpp"
 
 namespace warren {
@@ -58,13 +59,9 @@ TEST(ReadWorld, RefusesBadMazeNamesAsUsage) {
   };
   for (const auto& [source, expected] : cases) {
     SCOPED_TRACE(source);
-    try {
-      read_world(source, {});
-      ADD_FAILURE() << "accepted";
-    } catch (const UsageError& error) {
-      EXPECT_NE(std::string(error.what()).find(expected), std::string::npos) << error.what();
-      EXPECT_EQ(std::string(error.what()).find(source), 0U) << error.what();
-    }
+    const std::string said = test::refusal<UsageError>([&, &source = source] { read_world(source, {}); });
+    EXPECT_NE(said.find(expected), std::string::npos) << said;
+    EXPECT_EQ(said.find(source), 0U) << said;
   }
 }
 
@@ -165,12 +162,8 @@ TEST(ReadWorld, ContentDecidesBeforeTheEnding) {
 TEST(ReadWorld, WhatCannotBeReadIsAReadErrorThatNamesIt) {
   const TemporaryDirectory directory;
   for (const std::string& path : {directory.path(), directory.file("nothing.scene"), std::string("/dev/null/x")}) {
-    try {
-      read_world(path, {});
-      ADD_FAILURE() << path;
-    } catch (const ReadError& error) {
-      EXPECT_EQ(std::string(error.what()).find(path + ": can't be read: "), 0U) << error.what();
-    }
+    const std::string said = test::refusal<ReadError>([&] { read_world(path, {}); });
+    EXPECT_EQ(said.find(path + ": can't be read: "), 0U) << path << ' ' << said;
   }
   EXPECT_THROW(read_world("/dev/null", {}), InputError);  // can be read, but is empty
 }
@@ -199,7 +192,7 @@ TEST(ReadWorld, ReadsPipesToTheirEnd) {
 }
 
 /// Puts a file in the place of a standard stream while it lives.
-class Redirection {
+class Redirection : NotCopied {
  public:
   Redirection(int stream, const std::string& path, int flags) : stream_(stream), kept_(::dup(stream)) {
     const int file = ::open(path.c_str(), flags, 0600);
@@ -210,8 +203,6 @@ class Redirection {
     ::dup2(kept_, stream_);
     ::close(kept_);
   }
-  Redirection(const Redirection&) = delete;
-  Redirection& operator=(const Redirection&) = delete;
 
  private:
   int stream_;

@@ -10,6 +10,7 @@
 
 #include "core/base/error.hpp"
 #include "scenes/files/read_world_io.hpp"
+#include "tests/refusals.hpp"
 #include "tests/scenes/files/temporary_directory.hpp"
 #include "tests/scenes/files/test_images.hpp"
 
@@ -198,14 +199,9 @@ TEST(RosMap, TheImageIsFoundBesideTheYamlOrByItsAbsolutePath) {
 
 TEST(RosMap, AMissingImageIsAReadErrorThatNamesBoth) {
   const Fixture fixture("P2 1 1 255\n254\n");
-  try {
-    fixture.read(yaml_text("", "gone.pgm"));
-    ADD_FAILURE();
-  } catch (const ReadError& error) {
-    EXPECT_EQ(std::string(error.what()), fixture.directory().file("gone.pgm") + ", the image of " +
-                                             fixture.directory().file("map.yaml") +
-                                             ": can't be read: No such file or directory");
-  }
+  EXPECT_EQ(test::refusal<ReadError>([&] { fixture.read(yaml_text("", "gone.pgm")); }),
+            fixture.directory().file("gone.pgm") + ", the image of " + fixture.directory().file("map.yaml") +
+                ": can't be read: No such file or directory");
 }
 
 TEST(RosMap, WhateverItsNameAMapIsReadBackFromWhatIsWritten) {
@@ -249,13 +245,9 @@ TEST(RosMap, RefusesBadKeysWithFileAndLine) {
   };
   for (const auto& [yaml, expected] : cases) {
     SCOPED_TRACE(expected);
-    try {
-      fixture.read(yaml);
-      ADD_FAILURE() << "accepted";
-    } catch (const InputError& error) {
-      EXPECT_EQ(std::string(error.what()).find(fixture.directory().file("map.yaml")), 0U) << error.what();
-      EXPECT_NE(std::string(error.what()).find(expected), std::string::npos) << error.what();
-    }
+    const std::string said = test::refusal<InputError>([&, &yaml = yaml] { fixture.read(yaml); });
+    EXPECT_EQ(said.find(fixture.directory().file("map.yaml")), 0U) << said;
+    EXPECT_NE(said.find(expected), std::string::npos) << said;
   }
 }
 

@@ -32,5 +32,21 @@ TEST(HashOfCells, IsThatOfTheWallsWhateverTilesAndThreads) {
   }
 }
 
+TEST(HashOfCells, WallsGoOnFromPieceToPiece) {
+  using Size = std::pair<std::uint32_t, std::uint32_t>;  // pieces of a strip; strips, and walls that are floats
+  for (const auto& [rows, cols] : {Size{20000, 130}, Size{5, 270000}}) {
+    MazeCells maze(rows, cols);
+    for (std::uint32_t row = 0; row + 1 < rows; ++row) {
+      maze.open_above(row * 11 % cols, row);
+      maze.open_right(row * 7 % (cols - 1), row);
+    }
+    Scene scene;
+    scene.walls = maze_walls(maze, false, {});
+    const HashedCells found = hash_of_cells(HeldCells(maze, 6), {});
+    EXPECT_EQ(found.hash, scene_hash(scene)) << rows;
+    EXPECT_EQ(found.walls, scene.walls.size());
+  }
+}
+
 }  // namespace
 }  // namespace warren

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "core/base/error.hpp"
+#include "tests/refusals.hpp"
 #include "tests/scenes/files/temporary_directory.hpp"
 
 namespace warren {
@@ -154,12 +155,8 @@ TEST(OutputFile, RefusesWhatCannotBeWrittenAndNamesIt) {
   directory.write("plain", "");
   for (const std::string& path : {directory.path(), directory.file("no/such/place.txt"), directory.file("plain/a.txt"),
                                   std::string(), std::string("/dev/full"), std::string("/proc/nothing.txt")}) {
-    try {
-      write_file(path, "x", {});
-      ADD_FAILURE() << path;
-    } catch (const WriteError& error) {
-      EXPECT_EQ(std::string(error.what()).find(path + ": can't be written: "), 0U) << error.what();
-    }
+    const std::string said = test::refusal<WriteError>([&] { write_file(path, "x", {}); });
+    EXPECT_EQ(said.find(path + ": can't be written: "), 0U) << path << ' ' << said;
   }
   EXPECT_EQ(directory.entries(), 1U);
 }

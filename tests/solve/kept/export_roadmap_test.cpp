@@ -234,29 +234,19 @@ TEST(ExportRoadmap, LengthsThatAreNoNumbersAreRefused) {
     SCOPED_TRACE(ending);
     const TemporaryDirectory directory;
     const std::string path = directory.file("r" + ending);
-    try {
-      export_roadmap(path, far_apart.parts(), far_apart.length(), {}, {});
-      FAIL() << "no error";
-    } catch (const InputError& error) {
-      EXPECT_STREQ(
-          error.what(),
-          "edge 0 -> 1 of the roadmap: the length of an edge that is exported must be a finite number, zero or "
-          "more (found: inf)");
-    }
+    EXPECT_EQ(test::refusal<InputError>([&] { export_roadmap(path, far_apart.parts(), far_apart.length(), {}, {}); }),
+              "edge 0 -> 1 of the roadmap: the length of an edge that is exported must be a finite number, zero or "
+              "more (found: inf)");
     EXPECT_EQ(directory.entries(), 0U);
   }
 }
 
 TEST(ExportRoadmap, OtherEndingsAreRefusedByName) {
   for (const std::string path : {"a.svg", "a.co", "a", "", "a.CSV", "-"}) {
-    try {
-      files_of_export(path);
-      FAIL() << path;
-    } catch (const UsageError& error) {
-      EXPECT_EQ(error.what(), path +
-                                  ": a roadmap is exported to a file that ends in one of .geojson .graphml .gr .csv"
-                                  " .npz .dot, and drawn by .svg .png .pdf .html");
-    }
+    EXPECT_EQ(test::refusal<UsageError>([&] { files_of_export(path); }),
+              path +
+                  ": a roadmap is exported to a file that ends in one of .geojson .graphml .gr .csv"
+                  " .npz .dot, and drawn by .svg .png .pdf .html");
   }
 }
 
@@ -335,12 +325,8 @@ TEST(ExportRoadmap, TheFirstWrongLengthIsToldForAnyNumberOfThreads) {
   for (const std::string ending : {".csv", ".gr"}) {
     for (const std::uint64_t i : test::seeds(3, 1, 0)) {
       const unsigned threads = std::array{1U, 2U, 8U}[i];
-      try {
-        exported(roadmap, ending, {}, {.threads = threads});
-        FAIL() << "no error";
-      } catch (const InputError& error) {
-        EXPECT_EQ(std::string_view(error.what()).substr(0, 23), "edge 20000 -> 20001 of ") << ending;
-      }
+      const std::string said = test::refusal<InputError>([&] { exported(roadmap, ending, {}, {.threads = threads}); });
+      EXPECT_EQ(said.substr(0, 23), "edge 20000 -> 20001 of ") << ending;
     }
   }
 }

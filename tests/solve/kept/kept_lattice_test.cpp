@@ -27,15 +27,13 @@ namespace warren {
 namespace {
 
 /// A roadmap's file, which goes with it.
-class KeptFile {
+class KeptFile : NotCopied {
  public:
   explicit KeptFile(const Roadmap& roadmap)
       : path_((std::filesystem::temp_directory_path() / ("warren_lattice_" + std::to_string(::getpid()))).string()) {
     write_roadmap(roadmap, path_);
   }
   ~KeptFile() { std::filesystem::remove(path_); }
-  KeptFile(const KeptFile&) = delete;
-  KeptFile& operator=(const KeptFile&) = delete;
   const std::string& path() const { return path_; }
   std::string bytes() const {
     std::ifstream in(path_, std::ios::binary);

@@ -147,6 +147,12 @@ TEST(PricedRoadmap, AWorldOfOtherPricesIsRefused) {
   write_roadmap(lengths, file);
   expect_refusal(test::refusal<UsageError>([&] { read_roadmap(file, {}, closed); }));
   EXPECT_TRUE(read_roadmap(file, {}, rooms(false)).prices.empty());
+  priced.prices.clearance = ClearancePrice{9.0, 0.5};  // for which the roadmap's own counts
+  EXPECT_EQ(update(prices, priced, {}).prices.clearance->price, 3.0);
+  write_roadmap(prices, file);
+  const Roadmap beside = read_roadmap(file, {}, priced);
+  EXPECT_EQ(beside.prices.clearance->price, 3.0);
+  EXPECT_TRUE(beside.world.outline().prices.empty()) << "let go";
   std::filesystem::remove(file);
 }
 

@@ -87,6 +87,21 @@ TEST(Update, IsTheRoadmapOfTheChangedWorld) {
   EXPECT_GT(taken_over, 20'000U);
 }
 
+TEST(Update, OfAnArmsWorldIsTheRoadmapOfTheChangedOne) {
+  Scene scene;
+  scene.source = "shelf";
+  scene.spheres.push_back({0.8, 0.4, 0.75, 0.3});
+  const Question question{.robot = RobotSpec{.kind = RobotKind::puma560, .radius = 0.05}};
+  SolveOptions options{.planner = PlannerKind::prm};
+  options.roadmap.samples = 100;
+  const Roadmap roadmap = build(scene, question, options);
+  Scene next = scene;
+  next.boxes.push_back({{-0.9, -0.2, 0.0}, {-0.5, 0.2, 0.6}});
+  UpdateAccount account;
+  EXPECT_TRUE(same_bits(update(roadmap, next, {}, &account), build(next, question, options)));
+  EXPECT_TRUE(account.built_anew);
+}
+
 TEST(Update, BuildsAnewWhereTheFrameHasChanged) {
   const Scene scene = read_world("maze:7x9,seed=2");
   SolveOptions options;

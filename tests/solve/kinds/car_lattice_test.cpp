@@ -159,11 +159,12 @@ class Oracle {
   std::vector<bool> joins_;
 };
 
-LatticeSolution searched(Task& task, double gap) {
+LatticeSolution searched(Task& task, double gap, std::size_t judge_bytes = 0, const Execution& on = execution) {
   LatticeSearchOptions options;
   options.gear_change = task.lattice->units_of(task.options.price.cusp);
   options.gap = gap;
-  return LatticeSearch(*task.lattice, options, execution).run();
+  options.judge_bytes = judge_bytes;
+  return LatticeSearch(*task.lattice, options, on).run();
 }
 
 TEST(CarLattice, FindsWhatAPlainDijkstraFindsAndItsEstimateNeverExceedsIt) {
@@ -377,6 +378,26 @@ TEST(CarLattice, IsTheSameForAnyNumberOfThreads) {
     costs.push_back(solution.expanded);
   }
   EXPECT_EQ(costs, (std::vector{costs[0], costs[1], costs[0], costs[1], costs[0], costs[1]}));
+}
+
+TEST(CarLattice, MemoryForTheJudgeIsKeptBackOnceThereIsAPath) {
+  const Deadline all(std::numeric_limits<double>::infinity(), resident_bytes() + (std::size_t{1} << 32U));
+  Execution on;
+  on.deadline = &all;
+  std::size_t cut = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE(seed);
+    Task asked = task(seed, false);
+    asked.make(execution);
+    const LatticeSolution whole = searched(asked, 0.0, 0, on);
+    if (!whole.found() || whole.rounds == 1) continue;
+    const LatticeSolution first = searched(asked, 0.0, std::size_t{1} << 40U, on);  // more than there is
+    EXPECT_TRUE(first.found());
+    EXPECT_EQ(first.ended_by, "memory");
+    EXPECT_EQ(first.rounds, 1U);
+    ++cut;
+  }
+  EXPECT_GT(cut, 0U);
 }
 
 TEST(CarLattice, ShortGoalsInTheOpenAreDrivenStraightThere) {

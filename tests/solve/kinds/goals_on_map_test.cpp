@@ -13,6 +13,7 @@
 #include "core/base/rng.hpp"
 #include "solve/solve.hpp"
 #include "tests/planners/grid/grid_oracle.hpp"
+#include "tests/refusals.hpp"
 #include "tests/seeds.hpp"
 #include "tests/solve/test_scenes.hpp"
 
@@ -291,12 +292,8 @@ TEST(GoalsOnMap, AStopThatIsBlockedIsNamed) {
   map.set(4, 4);
   const Scene scene = scene_of(map);
   const Question question{.start = {0.5, 0.5}, .goal = {8.5, 8.5}, .rule = {.visit = {{1.5, 1.5}, {4.5, 4.5}}}};
-  try {
-    solve(scene, question, mapped_by(PlannerKind::grid));
-    ADD_FAILURE();
-  } catch (const UsageError& error) {
-    EXPECT_STREQ(error.what(), "visit: the point does not fit at place 2");
-  }
+  EXPECT_EQ(test::refusal<UsageError>([&] { solve(scene, question, mapped_by(PlannerKind::grid)); }),
+            "visit: the point does not fit at place 2");
   SolveOptions options = mapped_by(PlannerKind::grid);
   options.search = SearchMethod::astar;
   EXPECT_THROW(solve(scene, {.start = {0.5, 0.5}, .goal = {8.5, 8.5}, .rule = {.tolerance = 1.0}}, options),
@@ -442,6 +439,10 @@ TEST(GoalsOnMap, WhatIsToldOfTheGoalIsJudged) {
   other = recorded(solve(scene, tour, mapped_by(PlannerKind::grid)));
   EXPECT_EQ(other.order, (std::vector<std::uint64_t>{1, 0}));
   EXPECT_EQ(refuted(other), "");
+  EXPECT_EQ(refuted(other, {.rule = {.visit = {{3.5, 6.5}}}}), "");
+  EXPECT_EQ(refuted(other, {.rule = {.visit = {{3.5, 6.5}, {8.5, 0.5}}}}), "visit: the path passes place 2 by");
+  EXPECT_NE(refuted(other, {.rule = {.visit = {{3.5, 6.5}}, .back = true}}), "");
+  EXPECT_THROW(refuted(good, {.goal = {4.5, 0.5}, .rule = {.region = 2.0, .heading_rad = 0.1}}), UsageError);
   std::swap(other.order[0], other.order[1]);
   EXPECT_EQ(refuted(other), "order: the path visits the places in another one");
   other.order = {1, 1};

@@ -13,6 +13,7 @@
 #include "core/base/rng.hpp"
 #include "solve/kinds/solve_to_goal.hpp"
 #include "solve/solve.hpp"
+#include "tests/refusals.hpp"
 #include "tests/seeds.hpp"
 #include "tests/solve/test_scenes.hpp"
 
@@ -164,6 +165,15 @@ TEST(SolveThrough, ThereAndBack) {
   EXPECT_EQ(answer.problem.goal, question.start);
   EXPECT_EQ(answer.path.front(), answer.path.back());
   EXPECT_TRUE(verify(scene, answer).verified);
+  EXPECT_EQ(verify(scene, answer).bound, BoundVerdict::checked);
+  Answer above = answer;
+  above.lower_bound = 1.01 * *answer.lower_bound;
+  EXPECT_EQ(verify(scene, above).bound, BoundVerdict::unchecked);
+  question.prices.clearance = ClearancePrice{2.0, 1.0};
+  const Answer priced = solve(scene, question, stopping_by(PlannerKind::prm));
+  ASSERT_TRUE(priced.verified && priced.price);
+  EXPECT_GT(*priced.lower_bound, 27.2);
+  EXPECT_EQ(verify(scene, priced).bound, BoundVerdict::checked);
 }
 
 /// Bodies that turn: a stop with its heading is a state of the path, one without is a place of it.
@@ -378,12 +388,8 @@ TEST(SolveThrough, ACarVisitsWhereItIs) {
 }
 
 void expect_refused(const Scene& scene, const Question& question, const SolveOptions& options, std::string_view what) {
-  try {
-    solve(scene, question, options);
-    ADD_FAILURE() << "taken: " << what;
-  } catch (const UsageError& error) {
-    EXPECT_NE(std::string(error.what()).find(what), std::string::npos) << error.what();
-  }
+  const std::string said = test::refusal<UsageError>([&] { solve(scene, question, options); });
+  EXPECT_NE(said.find(what), std::string::npos) << what << ' ' << said;
 }
 
 TEST(SolveThrough, StopsThatAreNoneAreRefused) {

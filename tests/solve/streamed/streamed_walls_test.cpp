@@ -20,7 +20,7 @@ constexpr std::uint32_t cols = 523;
 Scene unmade(const std::string& path) { return unmade_maze(InputFile(path, {})).value(); }
 
 /// Of these rows of tiles: but for the corner, and the sides that are not the tile's.
-void expect_the_same_tiles(const CellWallSource& part, const CellWallSource& whole, TileRows own) {
+void expect_the_same_tiles(const CellWallSource& part, const CellWallSource& whole, Range own) {
   ASSERT_EQ(part.tile_count(), whole.tile_count());
   CellTile found;
   CellTile expected;
@@ -44,7 +44,7 @@ TEST(StreamedWalls, OfSomeRowsOfTilesAreThoseOfAll) {
     write_scene(maze_scene(maze, name[0] == 'm', {}), directory.file(name));
     const Scene scene = unmade(directory.file(name));
     const auto whole = streamed_walls(scene, {.threads = 1});
-    for (const TileRows own : {TileRows{0, 1}, {0, 4}, {1, 2}, {1, 3}, {2, 4}, {3, 4}}) {
+    for (const Range own : {Range{0, 1}, {0, 4}, {1, 2}, {1, 3}, {2, 4}, {3, 4}}) {
       SCOPED_TRACE(std::string(name) + " from " + std::to_string(own.first) + " to " + std::to_string(own.last));
       const auto part = streamed_walls(scene, own, {.threads = 2});
       expect_the_same_tiles(part->planned(), whole->planned(), own);
@@ -62,8 +62,8 @@ TEST(StreamedWalls, OfAMazeFileNoRowsButThoseAndTheTilesBelowAreLookedAt) {
   char& byte = bytes[64 + 300 * ((cols + 3) / 4)];  // in the second row of tiles
   byte = static_cast<char>(byte ^ 1);
   const Scene scene = unmade(directory.write("b.maze", bytes));
-  for (const TileRows own : {TileRows{0, 1}, {3, 4}}) EXPECT_NO_THROW(streamed_walls(scene, own, {}));
-  for (const TileRows own : {TileRows{0, 2}, {1, 2}, {1, 4}, {2, 3}, {2, 4}}) {
+  for (const Range own : {Range{0, 1}, {3, 4}}) EXPECT_NO_THROW(streamed_walls(scene, own, {}));
+  for (const Range own : {Range{0, 2}, {1, 2}, {1, 4}, {2, 3}, {2, 4}}) {
     EXPECT_THROW(streamed_walls(scene, own, {}), InputError);
   }
   EXPECT_THROW(streamed_walls(scene, {}), InputError);

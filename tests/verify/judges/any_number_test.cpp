@@ -95,10 +95,7 @@ Segment any_leg(std::uint64_t seed) {
 }
 
 /// Works as fast, by the processor's time, and as small as a small question may be. The clock sees loops without end.
-struct Limits {
-  Limits() = default;
-  Limits(const Limits&) = delete;
-  Limits& operator=(const Limits&) = delete;
+struct Limits : NotCopied {
   ~Limits() { EXPECT_LT(process_cpu_s() - began_cpu_s, 20.0); }
   const double began_cpu_s = process_cpu_s();
   static constexpr std::size_t bytes = std::size_t{test::memory_is_ours() ? 200 : 2000} << 20;

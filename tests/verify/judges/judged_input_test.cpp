@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/base/error.hpp"
+#include "tests/refusals.hpp"
 #include "verify/judges/verify_arm.hpp"
 #include "verify/judges/verify_point.hpp"
 #include "verify/judges/verify_turning.hpp"
@@ -63,12 +64,8 @@ void expect_refusal(const Judge& judge, const Refused& refused) {
   SCOPED_TRACE(std::string(judge.name) + ": " + refused.part);
   Scene scene;
   for (const auto give : refused.given) give(scene);
-  try {
-    judge.judge(scene);
-    ADD_FAILURE() << "judged";
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find(refused.part), std::string::npos) << error.what();
-  }
+  const std::string said = test::refusal<InputError>([&] { judge.judge(scene); });
+  EXPECT_NE(said.find(refused.part), std::string::npos) << said;
 }
 
 TEST(JudgedInput, JudgesOfThePlaneRefuseWhatTheyDoNotLookAt) {

@@ -4,9 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/base/rng.hpp"
@@ -142,6 +146,26 @@ TEST(VerifyBound, OfAnArmIsTheWayInJointSpaceAndOfAPlaceNothingIsKnown) {
   EXPECT_EQ(verdict(goal, 5.1), BoundVerdict::unchecked);
   EXPECT_EQ(verdict(place, 0.1), BoundVerdict::unchecked);
   EXPECT_EQ(verdict(place, 9.1), BoundVerdict::refuted);
+}
+
+TEST(VerifyBound, AStraightTourIsTheShortestOfAllOrders) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const auto drawn = [&](std::uint64_t i) { return Vec2{uniform(seed, i, 0), uniform(seed, i, 1)}; };
+    std::vector<Vec2> stops;
+    for (std::uint64_t i = 0; i < 1 + seed % 5; ++i) stops.push_back(drawn(10 + i));
+    for (const std::optional<Vec2>& end : {std::optional<Vec2>(), std::optional(drawn(1)), std::optional(drawn(0))}) {
+      std::vector<std::size_t> order(stops.size());
+      std::iota(order.begin(), order.end(), 0);
+      double least = 1e9;
+      do {
+        double way = end ? distance(stops[order.back()], *end) : 0.0;
+        Vec2 at = drawn(0);
+        for (const std::size_t stop : order) way += distance(std::exchange(at, stops[stop]), stops[stop]);
+        least = std::min(least, way);
+      } while (std::next_permutation(order.begin(), order.end()));
+      EXPECT_NEAR(straight_tour(drawn(0), stops, end), least, 1e-12) << seed;
+    }
+  }
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.hpp"
+#include "tests/refusals.hpp"
 #include "worlds/plane/obstacles_at_fixed_angle.hpp"
 #include "worlds/poses/car_world.hpp"
 #include "worlds/poses/obstacle_tree.hpp"
@@ -37,12 +38,8 @@ Scene scene_with(const Outline& outline) {
 /// make() throws an InputError that names the place.
 template <class Make>
 void expect_refusal(const Make& make, const std::string& place) {
-  try {
-    make();
-    ADD_FAILURE() << "was taken";
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find(place), std::string::npos) << error.what();
-  }
+  const std::string said = test::refusal<InputError>(make);
+  EXPECT_NE(said.find(place), std::string::npos) << said;
 }
 
 TEST(CheckedWorlds, RefuseObstaclesThatAreNoSimplePolygonsByTheirLine) {

@@ -10,6 +10,7 @@
 #include "core/base/rng.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "scenes/scene/polygon_generator.hpp"
+#include "tests/refusals.hpp"
 #include "tests/seeds.hpp"
 #include "verify/exact/exact_segments.hpp"
 #include "verify/near/obstacle_index.hpp"
@@ -122,14 +123,9 @@ TEST(PlaneObstacles, PolygonsThatAreNoneAreRefusedWithTheirLine) {
   for (const auto& [corners, said] : cases) {
     const Scene scene = scene_of({square_at(10, 10, 1), corners});
     SCOPED_TRACE(said);
-    try {
-      plane_obstacles(scene, {});
-      ADD_FAILURE() << "taken";
-    } catch (const InputError& error) {
-      const std::string text = error.what();
-      EXPECT_EQ(text.rfind("test.scene:2: ", 0), 0U) << text;
-      EXPECT_NE(text.find(said), std::string::npos) << text;
-    }
+    const std::string text = test::refusal<InputError>([&] { plane_obstacles(scene, {}); });
+    EXPECT_EQ(text.rfind("test.scene:2: ", 0), 0U) << text;
+    EXPECT_NE(text.find(said), std::string::npos) << text;
   }
 }
 

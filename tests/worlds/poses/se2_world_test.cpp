@@ -9,6 +9,7 @@
 
 #include "core/base/error.hpp"
 #include "core/plane/polygon.hpp"
+#include "tests/refusals.hpp"
 #include "tests/seeds.hpp"
 #include "tests/worlds/poses/body_scenes.hpp"
 #include "verify/judges/verify_turning.hpp"
@@ -256,12 +257,7 @@ TEST(Se2World, RefusesOptionsThatMakeNoSense) {
   Scene scene;
   scene.bounds = Box{{-2, -2}, {2, 3}};
   const auto message = [&](const Scene& s, const std::vector<Vec2>& outline, const Se2Options& options) {
-    try {
-      const Se2World world(s, outline, options);
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string("nothing");
+    return test::refusal<InputError>([&] { const Se2World world(s, outline, options); });
   };
   EXPECT_NE(message(scene, {{0, 0}, {1, 0}}, {}).find("three different corners"), std::string::npos);
   EXPECT_NE(message(scene, kite, {.clearance = -1.0}).find("clearance"), std::string::npos);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "solve/kept/export_roadmap.hpp"
 #include "tests/apps/serve/town.hpp"
@@ -28,6 +29,7 @@ class Graphs {
  public:
   explicit Graphs(const std::string& scene = town, const std::string& robot = "disc 1")
       : world_(scene_of(scene), {.robot = robot_value("robot", robot)}, {}) {}
+  explicit Graphs(Roadmap roadmap) : world_(std::move(roadmap), {}) {}
   HttpResponse asked(Place place, const std::string& body) {
     try {
       return answer_of_graphs(world_, place, body, {});
@@ -277,6 +279,20 @@ TEST(GraphService, CarsAreRefusedWithTheReason) {
     EXPECT_NE(graphs.why(place, place == Place::check ? R"({"edges":[]})" : "{}").find("a car drives curves"),
               std::string::npos);
   }
+}
+
+/// A round differential drive is a disc that turns at nodes, unless its roadmap steers it otherwise.
+TEST(GraphService, ARoundDifferentialDriveHasGraphs) {
+  const std::string open = "bounds 0 0 100 60\n";
+  const std::string drive = "car radius 1 turning 5 steering differential";
+  Graphs graphs(open, drive);
+  const Json graph = graphs.json(Place::graph, R"({"kind":"roadmap","samples":100,"neighbours":4})");
+  expect_all_free(graph);
+  EXPECT_FALSE(graph.at("nodes")[0].contains("theta"));
+  SolveOptions options{.planner = PlannerKind::prm, .roadmap = {.samples = 50}};
+  options.car.steering = SteeringKind::reeds_shepp;
+  Graphs curves(build(scene_of(open), {.robot = robot_value("robot", drive)}, options));
+  EXPECT_NE(curves.why(Place::check, R"({"edges":[]})").find("a car drives curves"), std::string::npos);
 }
 
 }  // namespace

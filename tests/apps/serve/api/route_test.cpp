@@ -5,6 +5,8 @@
 
 #include <string>
 
+#include "tests/refusals.hpp"
+
 namespace warren::serve {
 namespace {
 
@@ -71,12 +73,7 @@ TEST(Route, ThereIsNothingElsewhere) {
 
 TEST(Route, ParametersAreThereOnceAndNumbersAreNumbers) {
   const auto refused = [](const std::string& value) {
-    try {
-      numbers_parameter({.query = {{"bbox", value}}}, "bbox", 2);
-      return false;
-    } catch (const HttpError&) {
-      return true;
-    }
+    return !test::refusal<HttpError>([&] { numbers_parameter({.query = {{"bbox", value}}}, "bbox", 2); }).empty();
   };
   for (const char* value : {"", "1", "1,", ",1,2", "1,2,3", "1,nan", "inf,2", "1,2x", "x,1,2", "1 ,2", "1e999,2"}) {
     SCOPED_TRACE(value);

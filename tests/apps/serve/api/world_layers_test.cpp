@@ -292,12 +292,15 @@ TEST(WorldLayers, TheAxisRunsInTheMiddleOfACorridor) {
   const ServedWorld roadmap(build(scene_of("bounds 0 0 100 60\npolygon 40 0 60 0 60 25 40 25\n"
                                            "polygon 40 35 60 35 60 60 40 60\n")),
                             {});
+  Question closing;  // by the service's words
+  closing.prices.keep_out.push_back({{{40, 35}, {60, 35}, {60, 60}, {40, 60}}, 0});
+  const ServedWorld closed(scene_of("bounds 0 0 100 60\npolygon 40 0 60 0 60 25 40 25\n"), closing, {});
   struct Case {
     const ServedWorld& world;
     Vec2 on, off;
   };
-  for (const Case& c :
-       {Case{rooms, {50, 30}, {50, 33}}, Case{map, {15, 2.5}, {15, 1.5}}, Case{roadmap, {50, 30}, {50, 33}}}) {
+  for (const Case& c : {Case{rooms, {50, 30}, {50, 33}}, Case{map, {15, 2.5}, {15, 1.5}},
+                        Case{roadmap, {50, 30}, {50, 33}}, Case{closed, {50, 30}, {50, 33}}}) {
     const auto service = world_service(c.world, {});
     ASSERT_EQ(layer_of(service, "axis").at("there"), true);
     const std::vector<test::InkPixel> pixels =

@@ -337,6 +337,14 @@ TEST(WorldService, PricesAndChoicesOfAQuestionAreThoseOfSolve) {
   EXPECT_GT(answer.at("goal_reached").at("distance").get<double>(), 4.0);
 }
 
+TEST(WorldService, ARoadmapsAreasAreDrawn) {
+  Question body;
+  body.prices.areas.push_back({3.0, {{20, 20}, {40, 20}, {40, 40}}, 0});
+  const SolveOptions options{.planner = PlannerKind::prm, .roadmap = {.samples = 50}};
+  Served served(build(scene_of("bounds 0 0 100 60\n"), body, options));
+  EXPECT_EQ(Json::parse(served.get("/api/world").body).at("ground").size(), 1U);
+}
+
 TEST(WorldService, ARoadmapKnowsNoPrices) {
   const TemporaryDirectory folder;
   Served served(build(open_map(folder), {}, {.planner = PlannerKind::prm}));
@@ -402,6 +410,17 @@ TEST(WorldService, AQuestionMayNameAnotherBody) {
   EXPECT_NE(Json::parse(served.query({{"robot", "disc 3"}}).body).at("status"), "solved");
   EXPECT_NE(Json::parse(served.query({{"clearance", 2}}).body).at("status"), "solved");
   EXPECT_EQ(Json::parse(served.query(Json::object()).body).at("status"), "solved");
+}
+
+TEST(WorldService, AHeadingOfTheWorldIsNotPassedOver) {
+  Served served(scene_of("bounds 0 0 100 60\nstart 10 30 0.5\ngoal 90 30 0.5\n"));
+  const HttpResponse refused = served.query(Json::object());
+  EXPECT_EQ(refused.status, 400U);
+  EXPECT_NE(refused.body.find("a point has no heading, and no line names the robot; say robot"), std::string::npos)
+      << refused.body;
+  EXPECT_EQ(served.query({{"start", {10, 30}}}).status, 400U);
+  EXPECT_EQ(served.query({{"start", {10, 30}}, {"goal", {90, 30}}}).status, 200U);
+  EXPECT_EQ(served.query({{"robot", "disc 1"}}).status, 200U);
 }
 
 TEST(WorldService, BodiesThatCanNotBeAskedAreRefused) {

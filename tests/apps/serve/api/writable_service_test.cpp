@@ -51,8 +51,8 @@ class Writable {
   explicit Writable(const std::string& scene = town, const std::string& token = {}, bool writable = true)
       : service_(writable_service(std::make_unique<ServedWorld>(scene_of(scene), Question{}, Execution{}),
                                   {.writable = writable}, token)) {}
-  explicit Writable(Scene scene)
-      : service_(writable_service(std::make_unique<ServedWorld>(std::move(scene), Question{}, Execution{}),
+  explicit Writable(Scene scene, const Question& body = {})
+      : service_(writable_service(std::make_unique<ServedWorld>(std::move(scene), body, Execution{}),
                                   {.writable = true}, {})) {}
   explicit Writable(Roadmap roadmap)
       : service_(
@@ -122,6 +122,23 @@ TEST(WritableService, WhatTheWorldForbidsAndAsksForOutlivesAChange) {
   ASSERT_EQ(served.update({{"remove", change}}).status, 200U);
   EXPECT_EQ(served.scene(), scene);
   EXPECT_EQ(served.query().at("path"), before.at("path"));
+}
+
+TEST(WritableService, WhatTheServiceForbidsAndAsksForOutlivesAChangeOfAMap) {
+  Question body{.robot = RobotSpec{.kind = RobotKind::disc, .radius = 0.2}};
+  body.prices.clearance = ClearancePrice{3.0, 1.5};
+  body.prices.keep_out.push_back({{{8.0, 2.0}, {8.5, 2.0}, {8.5, 9.8}, {8.0, 9.8}}, 0});
+  Writable served(hall(), body);
+  const Json before = served.query();
+  ASSERT_EQ(served.update({{"block", {{12.0, 9.0, 12.4, 9.4}}}}).status, 200U);
+  Scene now = hall();
+  change_cells(now, Box{{12.0, 9.0}, {12.4, 9.4}}, true);
+  const Answer expected = solve(now, body);
+  ASSERT_TRUE(expected.verified && expected.cost);
+  const Json after = served.query();
+  EXPECT_NE(after.at("cost"), before.at("cost"));
+  EXPECT_EQ(after.at("cost").get<double>(), *expected.cost);
+  EXPECT_EQ(after.at("path").size(), expected.path.size());
 }
 
 /// Off the grid it is a maze no more; where that is taken back it is one again.
@@ -372,14 +389,21 @@ TEST(WritableService, WhatIsNoChangeOfThisWorldIsRefusedByName) {
 
 TEST(WritableService, ARoadmapOfAMapIsUpdatedAsUpdateDoes) {
   const SolveOptions options{.planner = PlannerKind::prm, .roadmap = {.samples = 200}};
-  Writable served(build(hall(), {}, options));
-  ASSERT_EQ(served.update({{"block", {{8.0, 2.0, 8.5, 9.8}}}}).status, 200U);
-  Scene now = hall();
-  change_cells(now, {{8.0, 2.0}, {8.5, 9.8}}, true);
-  const Roadmap expected = build(std::move(now), {}, options);
-  EXPECT_EQ(served.hash(), expected.world_hash);
-  EXPECT_EQ(served.query().at("length").get<double>(),
-            RoadmapQuery(expected, Execution{}, Questions::one).ask({}, {}).length);
+  Question priced_body;
+  priced_body.prices.clearance = ClearancePrice{3.0, 1.5};
+  for (const Question& body : {Question{}, priced_body}) {
+    Writable served(build(hall(), body, options));
+    ASSERT_EQ(served.update({{"block", {{8.0, 2.0, 8.5, 9.8}}}}).status, 200U);
+    Scene now = hall();
+    change_cells(now, {{8.0, 2.0}, {8.5, 9.8}}, true);
+    const Roadmap expected = build(std::move(now), body, options);
+    EXPECT_EQ(served.hash(), expected.world_hash);
+    const Json answer = served.query();
+    const Answer asked = RoadmapQuery(expected, Execution{}, Questions::one).ask({}, {});
+    EXPECT_EQ(answer.at("length").get<double>(), asked.length);
+    EXPECT_EQ(answer.value("cost", 0.0), asked.cost.value_or(0.0));
+    EXPECT_EQ(answer.contains("price"), body.prices.clearance.has_value());
+  }
 }
 
 /// All but the account of the work.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tests/apps/serve/http/running_server.hpp"
+#include "tests/refusals.hpp"
 
 namespace warren::serve {
 namespace {
@@ -158,13 +159,9 @@ TEST(HttpServer, WhatIsWorkedOnMayEndBeforeThat) {
 TEST(HttpServer, SaysWhoHasItsPortAlready) {
   const RunningServer server({});
   TestService service;
-  try {
-    const auto second = http_server({.addresses = {"127.0.0.1"}, .port = server.server.port()}, {}, service);
-    FAIL() << "two listen at one port";
-  } catch (const UsageError& error) {
-    EXPECT_NE(std::string(error.what()).find("of 127.0.0.1 is taken; 0 takes a free one"), std::string::npos)
-        << error.what();
-  }
+  const HttpPlace taken{.addresses = {"127.0.0.1"}, .port = server.server.port()};
+  const std::string said = test::refusal<UsageError>([&] { http_server(taken, {}, service); });
+  EXPECT_NE(said.find("of 127.0.0.1 is taken; 0 takes a free one"), std::string::npos) << said;
 }
 
 }  // namespace

@@ -121,11 +121,9 @@ TEST(KeptValues, WhatWasForgottenIsMadeAnewBesideTheOneThatIsHeld) {
 }
 
 /// A number that counts how many of its kind there are.
-struct Counted {
+struct Counted : NotCopied {
   Counted(int its_number, std::atomic<int>& alive) : number(its_number), count(alive) { ++count; }
   ~Counted() { --count; }
-  Counted(const Counted&) = delete;
-  Counted& operator=(const Counted&) = delete;
   int number;
   std::atomic<int>& count;
 };

@@ -56,7 +56,7 @@ class TestService : public serve::HttpService {
   std::atomic<bool> open{false};
 };
 
-class Socket {
+class Socket : NotCopied {
  public:
   explicit Socket(std::uint16_t port) : file_(::socket(AF_INET, SOCK_STREAM, 0)) {
     sockaddr_in to{};
@@ -66,8 +66,6 @@ class Socket {
     connected_ = ::connect(file_, reinterpret_cast<const sockaddr*>(&to), sizeof to) == 0;  // NOLINT
   }
   ~Socket() { close(); }
-  Socket(const Socket&) = delete;
-  Socket& operator=(const Socket&) = delete;
 
   bool connected() const { return connected_; }
   void close() {
@@ -117,7 +115,7 @@ class Socket {
   bool connected_ = false;
 };
 
-class RunningServer {
+class RunningServer : NotCopied {
  public:
   explicit RunningServer(const serve::HttpLimits& limits)
       : listening_(serve::http_server({.addresses = {"127.0.0.1"}}, limits, service)), server(*listening_) {
@@ -125,8 +123,6 @@ class RunningServer {
     while (!service.prepared) std::this_thread::yield();  // else it waits for a thread beside the first request
   }
   ~RunningServer() { end(); }
-  RunningServer(const RunningServer&) = delete;
-  RunningServer& operator=(const RunningServer&) = delete;
   void end() {
     stop_ = SIGTERM;
     if (thread_.joinable()) thread_.join();
