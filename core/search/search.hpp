@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One search for explicit and implicit graphs: A* (Hart, Nilsson, Raphael 1968), Dijkstra (A* with a zero heuristic),
-// and breadth- and depth-first search.
+// One search for explicit and implicit graphs: A* (Hart, Nilsson, Raphael 1968), which is best_first(), Dijkstra (A*
+// with a zero heuristic), and breadth- and depth-first search. From both ends: bidirectional_search.hpp. Cars on
+// grids are searched by ARA* (planners/grid/motion_lattice.hpp).
 //
 // A graph is any callable neighbours(v, visit) that calls visit(w, length) for each neighbour in ascending order; a
 // lazily checked roadmap tests an edge there, and asks visit.wants(w, length) first, whether an edge of at least this

@@ -10,6 +10,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/rng.hpp"
+#include "parallel/asked_memory.hpp"
 #include "parallel/chunks.hpp"
 #include "parallel/sort.hpp"
 
@@ -396,7 +397,7 @@ class WitnessSearch {
       search(row[i].to, longest);
       for (const HierarchyArc& arc : others) {
         const double length = slot_of(arc.to).wanted;
-        if (length != unwanted) shortcuts.push_back({row[i].to, arc.to, graph_.vertex[v], length});
+        if (length != unwanted) push_asked(shortcuts, {row[i].to, arc.to, graph_.vertex[v], length}, execution_);
       }
     }
   }
@@ -576,7 +577,8 @@ void ContractionRounds::next_round() {
       const auto v = static_cast<VertexId>(i);
       out.vertex.push_back(left_.vertex[v]);
       out.arcs.push_back(static_cast<EdgeEnd>(left_.row(v).size()));
-      for (const HierarchyArc& a : left_.row(v)) out.arc.push_back({left_.vertex[a.to], a.middle, a.length});
+      for (const HierarchyArc& a : left_.row(v))
+        push_asked(out.arc, {left_.vertex[a.to], a.middle, a.length}, execution_);
       witness.append_shortcuts(v, shortcuts[r.first / witness_grain]);
     }
   });
@@ -588,9 +590,7 @@ void ContractionRounds::next_round() {
   }
   left_ = shrunk(std::move(left_), taken, shortcuts, execution_);
   for (TakenOut& part : gone) {
-    if (part.vertex.empty()) continue;
-    execution_.reserve(part.arc.size() * sizeof(HierarchyArc));
-    gone_.push_back(std::move(part));
+    if (!part.vertex.empty()) gone_.push_back(std::move(part));
   }
 }
 

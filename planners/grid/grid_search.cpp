@@ -11,6 +11,7 @@
 #include "core/base/error.hpp"
 #include "core/base/types.hpp"
 #include "core/search/search_queues.hpp"
+#include "parallel/asked_memory.hpp"
 
 namespace warren {
 
@@ -141,8 +142,8 @@ SearchResult breadth_first_over(const FreeCells& cells, const Steps& steps, Vert
   }
   if (arrived_by[goal] == 0) return result;
   result.status = SearchStatus::found;
-  for (VertexId v = goal; v != start; v -= steps.offset(arrived_by[v] - 1U)) result.path.push_back(v);
-  result.path.push_back(start);
+  for (VertexId v = goal; v != start; v -= steps.offset(arrived_by[v] - 1U)) push_asked(result.path, v, execution);
+  push_asked(result.path, start, execution);
   std::reverse(result.path.begin(), result.path.end());
   return result;
 }
@@ -346,6 +347,7 @@ GridPath GridSearch::find(Cell start, Cell goal, const GridSearchOptions& option
   if (result.status == SearchStatus::stopped) execution.check();
   path.status = result.status;
   path.expanded = result.expanded;
+  execution.reserve(result.path.size() * sizeof(Cell));
   path.cells.reserve(result.path.size());
   for (const VertexId v : result.path) path.cells.push_back(cells.cell(v));
   path.cost = cost_of(path.cells, options.diagonal);

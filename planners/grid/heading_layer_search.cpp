@@ -286,7 +286,8 @@ LayerPath layer_search(const HeadingLayers& layers, std::span<const LayerEnd> st
   path.status = result.status;
   path.expanded = result.expanded;
   if (result.status != SearchStatus::found) return path;
-  for (std::size_t n = 1; n + 1 < result.path.size(); ++n) path.states.push_back(search.state_of(result.path[n]));
+  for (std::size_t n = 1; n + 1 < result.path.size(); ++n)
+    push_asked(path.states, search.state_of(result.path[n]), execution);
   count_moves(path, options);
   path.cost += search.start_cost(result.path[1]) + search.goal_cost(result.path[result.path.size() - 2]);
   return path;

@@ -34,6 +34,7 @@
 #include "core/base/raw_vector.hpp"
 #include "core/base/solution.hpp"
 #include "core/run/execution.hpp"
+#include "parallel/asked_memory.hpp"
 #include "spatial/maps/free_cells.hpp"
 
 namespace warren {
@@ -84,8 +85,11 @@ class CellField {
     if (there == blocked || value >= there || value > largest) return;
     there = value;
     const std::size_t bucket = value >> shift_;
-    if (bucket >= buckets_.size()) buckets_.resize(bucket + 1);
-    buckets_[bucket].push_back(static_cast<std::uint32_t>(number));
+    if (bucket >= buckets_.size()) {
+      if (bucket >= buckets_.capacity()) execution_.reserve(2 * bucket * sizeof(buckets_[0]));
+      buckets_.resize(bucket + 1);
+    }
+    push_asked(buckets_[bucket], static_cast<std::uint32_t>(number), execution_);
   }
   void settle_bucket() {
     execution_.check();
@@ -293,7 +297,7 @@ class LatticeSearch {
   }
   std::uint64_t key_of(std::uint64_t cost, std::uint64_t at_least) const { return parts * cost + weight_ * at_least; }
   void push(std::uint64_t key, std::uint32_t node) {
-    open_.push_back({key, node});
+    push_asked(open_, {key, node}, execution_);
     std::push_heap(open_.begin(), open_.end());
   }
 
@@ -303,7 +307,7 @@ class LatticeSearch {
     std::vector<std::uint32_t> left = std::move(waiting_);
     waiting_.clear();
     for (const Entry& entry : open_) {
-      if ((entry.node & start_flag) == 0 && is_open(entry.node)) left.push_back(entry.node);
+      if ((entry.node & start_flag) == 0 && is_open(entry.node)) push_asked(left, entry.node, execution_);
     }
     std::sort(left.begin(), left.end());
     left.erase(std::unique(left.begin(), left.end()), left.end());
@@ -312,14 +316,14 @@ class LatticeSearch {
     for (const std::uint32_t node : left) {
       nodes_[node].waits = false;
       if (nodes_[node].cost + nodes_[node].at_least < goal_cost_)
-        open_.push_back({key_of(nodes_[node].cost, nodes_[node].at_least), node});
+        push_asked(open_, {key_of(nodes_[node].cost, nodes_[node].at_least), node}, execution_);
     }
     const auto starts = space_.starts();
     for (std::uint32_t i = 0; i < starts.size(); ++i) {
       if (is_dead_[i] != 0) continue;
       const std::uint64_t at_least = starts_left_[i];
       if (at_least == no_way || starts[i].cost + at_least >= goal_cost_) continue;
-      open_.push_back({key_of(starts[i].cost, at_least), start_flag + i});
+      push_asked(open_, {key_of(starts[i].cost, at_least), start_flag + i}, execution_);
     }
     std::make_heap(open_.begin(), open_.end());
   }
@@ -372,7 +376,7 @@ class LatticeSearch {
     node.parent = parent;
     node.via = via;
     if (is_open(number)) return push(key_of(cost, node.at_least), number);
-    if (!node.waits) waiting_.push_back(number);
+    if (!node.waits) push_asked(waiting_, number, execution_);
     node.waits = true;
   }
   void expand(std::uint32_t number) {

@@ -11,6 +11,7 @@
 
 #include "core/base/whole.hpp"
 #include "core/search/search_queues.hpp"
+#include "parallel/asked_memory.hpp"
 
 namespace warren {
 namespace {
@@ -78,8 +79,8 @@ HoleCuts::HoleCuts(const Bitmap& blocked, double least, const Execution& executi
       Bitmap& into = is_rim ? rim : cells_;
       for (const Cell c : found) into.set(c.x, c.y);
       if (is_rim) continue;
-      holes_.push_back(hole);
-      lowest.push_back({x, y});
+      push_asked(holes_, hole, execution);
+      push_asked(lowest, {x, y}, execution);
     }
   }
   const auto ends_at = [&](std::uint32_t x, std::uint32_t y) { return rim.test(x, y) || cells_.test(x, y); };
@@ -87,7 +88,7 @@ HoleCuts::HoleCuts(const Bitmap& blocked, double least, const Execution& executi
     const auto [x, top] = lowest[i];
     std::uint32_t low = top;
     while (low > 0 && !ends_at(x, low - 1) && !ends_at(x + 1, low - 1)) cut_cells_.set(x, --low);
-    if (low < top) cuts_.push_back({x, low, top, as_whole<std::int32_t>(i + 1)});
+    if (low < top) push_asked(cuts_, {x, low, top, as_whole<std::int32_t>(i + 1)}, execution);
   }
   std::sort(cuts_.begin(), cuts_.end(),
             [](const Cut& a, const Cut& b) { return std::tie(a.column, a.low) < std::tie(b.column, b.low); });
@@ -149,11 +150,16 @@ namespace {
 /// All words that were met; a word is the number of its last letter. 0 is the empty one.
 class Words {
  public:
-  std::uint32_t followed(std::uint32_t word, std::int32_t letter) {
+  /// Throws Stopped.
+  std::uint32_t followed(std::uint32_t word, std::int32_t letter, const Execution& execution) {
+    constexpr std::size_t batch = 1 << 12;
+    constexpr std::size_t bytes_a_word = 80;  // its place in the map, and twice its letter
     if (letter == 0) return word;
     if (word != 0 && letters_[word].letter == -letter) return letters_[word].before;
     const auto [at, is_new] = known_.emplace(std::pair{word, letter}, as_whole<std::uint32_t>(letters_.size()));
-    if (is_new) letters_.push_back({word, letter});
+    if (!is_new) return at->second;
+    if (letters_.size() % batch == 0) execution.reserve(batch * bytes_a_word);
+    letters_.push_back({word, letter});
     return at->second;
   }
   std::vector<std::int32_t> spelled(std::uint32_t word) const {
@@ -251,12 +257,13 @@ class ClassSearch {
       if (!onward) continue;
       const std::uint64_t cost = from.cost + weights_.weight(from.cell, step);
       if (static_cast<double>(cost + *onward) > limit_) continue;
-      reach(to, words_.followed(from.word, cuts_.letter(here, step)), at, cost, *onward);
+      reach(to, words_.followed(from.word, cuts_.letter(here, step), execution_), at, cost, *onward);
     }
   }
   std::vector<Cell> cells_to(std::uint32_t at) {
     std::vector<Cell> cells;
-    for (; at != none; at = state_at(at).before) cells.push_back(weights_.cells().cell(state_at(at).cell));
+    for (; at != none; at = state_at(at).before)
+      push_asked(cells, weights_.cells().cell(state_at(at).cell), execution_);
     std::reverse(cells.begin(), cells.end());
     return cells;
   }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/whole.hpp"
+#include "parallel/asked_memory.hpp"
 
 namespace warren {
 
@@ -140,11 +141,11 @@ bool PriceField::repair(std::span<const Cell> touched, std::uint64_t most, const
   std::vector<VertexId> renewed;
   const auto doubt = [&](VertexId v) {
     if (costs_[v] == 0) return;
-    doubtful.emplace_back(known(v), v);
+    push_asked(doubtful, {known(v), v}, execution);
     std::push_heap(doubtful.begin(), doubtful.end(), dearer);
   };
   for (const Cell c : touched) {
-    renewed.push_back(weights_.cells().number(c));
+    push_asked(renewed, weights_.cells().number(c), execution);
     doubt(renewed.back());
   }
   for (std::uint64_t lost = 0; !doubtful.empty();) {
@@ -154,7 +155,7 @@ bool PriceField::repair(std::span<const Cell> touched, std::uint64_t most, const
     if (costs_[v] == 0 || over_neighbours(v, cost) <= cost) continue;
     const bool is_told = (costs_[v] & is_expanded) != 0;  // else others may rest on what it had before
     costs_[v] = 0;
-    renewed.push_back(v);
+    push_asked(renewed, v, execution);
     if (++lost > most) return false;
     if (lost % expansions_per_poll == 0) execution.check();
     for (unsigned s = 0; s < 8; ++s) {
@@ -190,7 +191,7 @@ std::pair<std::vector<Cell>, std::size_t> PriceField::path(Cell from, const Exec
       if (known(w) < known(v) && known(w) + weights_.weight(v, s) == known(v)) v = w;
     }
     if (v == before) throw std::logic_error("a field's cost rests on none of its neighbours'");
-    cells.push_back(weights_.cells().cell(v));
+    push_asked(cells, weights_.cells().cell(v), execution);
   }
 }
 

@@ -12,6 +12,7 @@
 #include "core/base/trigonometry.hpp"
 #include "core/base/types.hpp"
 #include "core/search/search.hpp"
+#include "parallel/asked_memory.hpp"
 #include "parallel/sort.hpp"
 #include "planners/graph/assemble_graph.hpp"
 #include "planners/graph/components.hpp"
@@ -50,7 +51,9 @@ constexpr std::array<bool, 256> simple_table = [] {
 class WaitingCells {
  public:
   bool empty() const { return by_distance_.empty(); }
-  void push(std::uint32_t distance, std::uint32_t cell) { by_distance_[distance].cells.push_back(cell); }
+  void push(std::uint32_t distance, std::uint32_t cell, const Execution& execution) {
+    push_asked(by_distance_[distance].cells, cell, execution);
+  }
   std::uint32_t pop() {
     const auto first = by_distance_.begin();
     const std::uint32_t cell = first->second.cells[first->second.next++];
@@ -126,7 +129,7 @@ class Thinning {
   void wait(Cell cell) {
     if (waits_.test(cell.x, cell.y)) return;
     waits_.set(cell.x, cell.y);
-    waiting_.push(field_.squared(cell.x, cell.y), cell.y * width_ + cell.x);
+    waiting_.push(field_.squared(cell.x, cell.y), cell.y * width_ + cell.x, execution_);
   }
   /// The cells at a border; those inside follow when their neighbours go.
   void line_up() {
@@ -159,12 +162,13 @@ class Thinning {
 /// The set cells of a bitmap, such as a map's skeleton, as vertices of a graph, numbered row by row.
 class NumberedCells {
  public:
-  explicit NumberedCells(Bitmap cells) : bits_(std::move(cells)) {
+  NumberedCells(Bitmap cells, const Execution& execution) : bits_(std::move(cells)) {
     std::uint32_t count = 0;
     for (const std::uint64_t word : bits_.words()) {
-      before_.push_back(count);
+      push_asked(before_, count, execution);
       count += static_cast<std::uint32_t>(std::popcount(word));
     }
+    execution.reserve(count * sizeof(Cell));
     cells_.reserve(count);
     for (std::uint32_t y = 0; y < bits_.height(); ++y) {
       bits_.for_each_in_row(y, [&](std::uint32_t x) { cells_.push_back({x, y}); });
@@ -241,7 +245,7 @@ class SkeletonPlan {
   void thin() {
     const StageTimer timer(execution_, "skeleton", plan_.seconds.graph, blocked_.size());
     const std::array<Cell, 2> kept{start_, goal_};
-    cells_.emplace(map_skeleton(blocked_, field_, kept, execution_));
+    cells_.emplace(map_skeleton(blocked_, field_, kept, execution_), execution_);
   }
 
   void link() {
@@ -254,7 +258,8 @@ class SkeletonPlan {
         const std::int64_t y = std::int64_t{c.y} + dy;
         if (dy < 0 || (dy == 0 && dx < 0) || !cells_->holds(x, y)) continue;  // each step once
         if (dx != 0 && dy != 0 && (blocked_.holds(x, c.y) || blocked_.holds(c.x, y))) continue;
-        edges_.push_back({v, cells_->number(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y))});
+        push_asked(edges_, {v, cells_->number(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y))},
+                   execution_);
       }
     }
   }
@@ -324,6 +329,8 @@ class SkeletonPlan {
   void search() {
     const StageTimer timer(execution_, "search", plan_.seconds.search, cells_->size());
     if (options_.objective == AxisObjective::clearance) {
+      // The widths, their levels, and the wide edges while their list grows.
+      execution_.reserve(cells_->size() * 2 * sizeof(std::uint32_t) + edges_.size() * 3 * sizeof(Edge));
       const std::vector<std::uint32_t> wide = widths();
       edges_ = at_least(edges_, wide, widest(wide));
     }
@@ -374,8 +381,8 @@ class LinesOfSkeleton {
   LinesOfSkeleton(const SkeletonRoadmap& roadmap, const Execution& execution)
       : blocked_(roadmap.blocked),
         execution_(execution),
-        cells_(map_skeleton(roadmap.blocked, roadmap.field, {}, execution, SkeletonEnds::stay)),
-        passed_(cells_.size(), 0) {}
+        cells_(map_skeleton(roadmap.blocked, roadmap.field, {}, execution, SkeletonEnds::stay), execution),
+        passed_((execution.reserve(cells_.size()), cells_.size()), 0) {}
 
   SkeletonLines run() {
     for (VertexId v = 0; v < cells_.size(); ++v) {
@@ -399,7 +406,7 @@ class LinesOfSkeleton {
       const bool chain = neighbours(next).size() == 2;
       if (chain ? passed_[next] == 0 : v < next) follow(v, next);
     }
-    if (neighbours(v).size() == 0) points_.push_back(v);
+    if (neighbours(v).size() == 0) push_asked(points_, v, execution_);
   }
 
   /// From one cell over the next to where the chain ends, or closes.
@@ -411,7 +418,7 @@ class LinesOfSkeleton {
       const auto near = neighbours(next);
       const VertexId before = chain_[chain_.size() - 2];
       next = near.cell[0] == before ? near.cell[1] : near.cell[0];
-      chain_.push_back(next);
+      push_asked(chain_, next, execution_);
     }
     passed_[from] = 1;
     cut_corners();
@@ -444,13 +451,14 @@ class LinesOfSkeleton {
     for (std::size_t i = 1; i < chain_.size(); ++i) {
       const bool goes_on = i + 1 < chain_.size() && step(chain_[i - 1], chain_[i]) == step(chain_[i], chain_[i + 1]);
       if (goes_on) continue;
-      if (begin != chain_[i]) lines_.push_back({std::min(begin, chain_[i]), std::max(begin, chain_[i])});
+      if (begin != chain_[i]) push_asked(lines_, {std::min(begin, chain_[i]), std::max(begin, chain_[i])}, execution_);
       begin = chain_[i];
     }
   }
 
   /// Cells that are vertices, numbered in their order.
   SkeletonLines numbered() {
+    execution_.reserve(6 * lines_.size() * sizeof(Edge));  // two points a line, their cells, the edges
     for (const Edge& line : lines_) points_.insert(points_.end(), {line.from, line.to});
     polled_sort(points_.begin(), points_.end(), execution_);
     points_.erase(std::unique(points_.begin(), points_.end()), points_.end());

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Lazy PRM (Bohlin, Kavraki, ICRA 2000): milestones as in prm, but a motion is checked only where a search needs it.
 //
-// The graph is implicit (LazyGraph); an edge is checked when expanding one end would improve the other. The path
-// is the shortest of the same roadmap as prm's. Tried and lost: a motion checked only when it lies on the best path so
-// far, as they have it, for most candidate edges of mazes lead through walls, and each of them cost a repair.
+// The planner is lazy_prm(), at the end. The graph is implicit (LazyGraph); an edge is checked when expanding one end
+// would improve the other. The path is the shortest of the same roadmap as prm's. Tried and lost: a motion checked only
+// when it lies on the best path so far, as Bohlin and Kavraki have it, for most candidate edges of mazes lead through
+// walls, and each of them cost a repair.
 // From 50,000 milestones on it searches from both ends (NBA*), each end with a graph and a thread of its
 // own; below that, two threads do not repay their start. The number of threads changes neither path nor counters. There
 // it also leaves out the dead ends of a maze (DeadEnds).

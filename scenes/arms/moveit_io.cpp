@@ -177,9 +177,8 @@ class MoveItReader {
     return found;
   }
   double number(const Node& node, std::string_view key) const {
-    const double value =
-        yaml_.number(node, key, "a number of at most 1e60", [](double x) { return std::abs(x) <= largest_coordinate; });
-    return std::abs(value) < smallest_coordinate ? 0.0 : value;
+    return yaml_.number(node, key, "a number of at most 1e60",
+                        [](double x) { return std::abs(x) <= largest_coordinate; });
   }
   /// A list, or x, y, z and w by these names.
   template <std::size_t N>

@@ -26,20 +26,23 @@
 
 namespace warren {
 
-/// Takes the next number and the blanks around it; false where there is none, or one that is not finite or beyond
-/// largest_coordinate.
+/// Takes the next number and the blanks around it, 0 for one that is nearer to zero than smallest_coordinate; false
+/// where there is none, or one that is not finite or beyond largest_coordinate.
 template <class Number>
 bool take_number(std::string_view& text, Number& number) {
   const auto skip_blanks = [&] { text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size())); };
   skip_blanks();
-  const bool plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
-  const auto [last, error] = std::from_chars(text.data() + (plus ? 1 : 0), text.data() + text.size(), number);
-  text.remove_prefix(static_cast<std::size_t>(last - text.data()));
-  if (error != std::errc() || (!text.empty() && std::string_view(" \t\r\n").find(text[0]) == std::string_view::npos))
+  const char* digits = scene_text::without_plus(text).data();
+  const auto [last, error] = std::from_chars(digits, text.data() + text.size(), number);
+  const auto taken = static_cast<std::size_t>(last - text.data());
+  const bool is_tiny = error == std::errc::result_out_of_range && scene_text::rounds_to_zero(text.substr(0, taken));
+  text.remove_prefix(taken);
+  if ((error != std::errc() && !is_tiny) ||
+      (!text.empty() && std::string_view(" \t\r\n").find(text[0]) == std::string_view::npos))
     return false;
   skip_blanks();
   if constexpr (std::is_same_v<Number, double>) {
-    if (std::abs(number) < smallest_coordinate) number = 0.0;
+    if (is_tiny || std::abs(number) < smallest_coordinate) number = 0.0;
     return std::abs(number) <= largest_coordinate;
   }
   return true;

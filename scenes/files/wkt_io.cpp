@@ -88,7 +88,7 @@ class Tokens {
     if (!number_follows()) fail("a number");
     double value = 0.0;
     constexpr std::size_t longest = 1 << 16;
-    const char* begin = text_.data() + (text_.front() == '+' ? 1 : 0);
+    const char* begin = scene_text::without_plus(text_).data();
     const auto [end, error] = std::from_chars(begin, text_.data() + std::min(longest, text_.size()), value);
     if (end == text_.data() + longest) fail("a number of at most 65536 characters");
     const std::size_t length = static_cast<std::size_t>(end - text_.data());

@@ -32,9 +32,9 @@ std::string_view Fields::word() {
 double Fields::number() {
   const char* begin = at_;
   double value = 0.0;
-  const bool plus = at_ != end_ && *at_ == '+' && at_ + 1 != end_ && at_[1] != '-';
+  const char* digits = without_plus({at_, static_cast<std::size_t>(end_ - at_)}).data();
   const char* limit = at_ + std::min(longest_run, end_ - at_);
-  const auto [last, error] = std::from_chars(plus ? at_ + 1 : at_, limit, value);
+  const auto [last, error] = std::from_chars(digits, limit, value);
   if (error == std::errc() && std::abs(value) <= largest_coordinate &&
       (last == end_ || is_blank(*last) || *last == '#')) {
     at_ = last;
@@ -53,9 +53,13 @@ double Fields::number() {
 }
 
 bool rounds_to_zero(std::string_view number) {
-  const std::size_t exponent = number.find_first_of("eE");
-  return exponent != std::string_view::npos ? number.substr(exponent + 1).starts_with('-')
-                                            : number.find_first_of("123456789") > number.find('.');
+  constexpr double beyond_all = 1e9;  // more than a number has digits
+  const std::size_t end = std::min(number.find_first_of("eE"), number.size());
+  const std::size_t point = std::min(number.find('.'), end);
+  const std::string_view power = without_plus(number.substr(std::min(end + 1, number.size())));
+  const double otherwise = power.empty() ? 0.0 : power.starts_with('-') ? -beyond_all : beyond_all;
+  const double exponent = number_in_full<double>(power).value_or(otherwise);
+  return static_cast<double>(point) + exponent < static_cast<double>(number.find_first_of("123456789"));
 }
 
 void read_numbers(Fields& fields, std::vector<double>& numbers, const Execution& execution) {

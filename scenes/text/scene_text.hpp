@@ -36,16 +36,25 @@ struct Place {
   [[noreturn]] void fail(std::string_view what, std::string_view found = {}) const;
 };
 
-/// The number that a text is, all of it; nothing where it is none, or beyond what a T holds.
-template <class T>
-std::optional<T> number_in_full(std::string_view text) {
-  T value{};
-  const auto [last, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && last == text.data() + text.size() ? std::optional(value) : std::nullopt;
+/// Without a plus at its begin, which std::from_chars takes for no number; of "+-1" it stays.
+inline std::string_view without_plus(std::string_view number) {
+  if (number.size() > 1 && number[0] == '+' && number[1] != '-') number.remove_prefix(1);
+  return number;
 }
 
 /// Of a number that no double holds: is it too near to zero, not too large?
 bool rounds_to_zero(std::string_view number);
+
+/// The number that a text is, all of it; nothing where it is none, or too large for a T. 0: it is nearer to zero than
+/// any other T.
+template <class T>
+std::optional<T> number_in_full(std::string_view text) {
+  T value{};
+  const auto [last, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (last != text.data() + text.size()) return std::nullopt;
+  if (error == std::errc::result_out_of_range && rounds_to_zero(text)) return T{};
+  return error == std::errc() ? std::optional(value) : std::nullopt;
+}
 
 inline bool is_blank(char c) { return c == ' ' || c == ',' || c == '\t' || c == '\r' || c == '\f' || c == '\v'; }
 

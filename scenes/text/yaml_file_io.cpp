@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <istream>
 #include <sstream>
 
 #include "core/base/error.hpp"
+#include "core/base/types.hpp"
 
 namespace warren {
 namespace {
@@ -92,7 +94,8 @@ void YamlFile::fail(const YAML::Node& node, std::string_view what) const {
 double YamlFile::number(const YAML::Node& node, std::string_view key, std::string_view expected,
                         bool (*is_right)(double)) const {
   const std::string_view text = node.IsScalar() ? std::string_view(node.Scalar()) : std::string_view();
-  const auto value = scene_text::number_in_full<double>(text.substr(text.starts_with('+') ? 1 : 0));
+  auto value = scene_text::number_in_full<double>(scene_text::without_plus(text));
+  if (value && std::abs(*value) < smallest_coordinate) value = 0.0;
   if (!value || !is_right(*value)) fail(node, fmt::format("`{}` must be {}", key, expected));
   return *value;
 }

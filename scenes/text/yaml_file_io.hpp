@@ -25,8 +25,8 @@ class YamlFile {
   scene_text::Place place(const YAML::Node& node) const { return place(node.Mark()); }
   /// Throws InputError naming the line, and the value where the node is one.
   [[noreturn]] void fail(const YAML::Node& node, std::string_view what) const;
-  /// A number of which is_right holds; infinities and what is no number are asked, too. `key` and `expected` are for
-  /// the error: "`key` must be EXPECTED".
+  /// A number of which is_right holds; infinities and what is no number are asked, too, and 0 for what is nearer to
+  /// zero than smallest_coordinate. `key` and `expected` are for the error: "`key` must be EXPECTED".
   double number(const YAML::Node& node, std::string_view key, std::string_view expected,
                 bool (*is_right)(double)) const;
 

@@ -3,12 +3,16 @@
 // the file of its kind of world (solve/kinds; that of streamed mazes in solve/streamed); the table of all of them is in
 // kind_of_problem.cpp.
 //
-// To add a planner to a kind: a line in the `NAME_planners` of its file with the options that it takes beyond planner
-// and seed (every other one is refused, by name, before the planner sees it), the words of questions that it respects
-// (asked_words.hpp: prices, restrictions, goals; the same), and a branch in its solve_NAME(). An option that nobody had
-// yet: solve_options.hpp. To add a kind: its file or a place in one, its declaration below, its
-// line in the table. Several kinds may fit a world (walls are plane obstacles too): the first in the table that has the
-// planner solves it, and the first that has any planner is asked for the default.
+// To add a planner: its code in planners/, its name in PlannerKind and all_planners (solve_options.hpp), and for each
+// kind that has it a line in the `NAME_planners` of the kind's file and a branch in its solve_NAME(). The line has the
+// options that the planner takes beyond planner and seed (every other one is refused, by name, before the planner sees
+// it), and the words of questions that it respects (asked_words.hpp: prices, restrictions, goals; the same). Bodies
+// that sample share their branch, SampledSolve::run() (sampled_solve.hpp); for them the planner is compiled in
+// planned_*.cpp. An option that nobody had yet: solve_options.hpp. The test matrix: tests/matrix/planners.table.
+//
+// To add a kind: its file or a place in one, its declaration below, its line in the table. Several kinds may fit a
+// world (walls are plane obstacles too): the first in the table that has the planner solves it, and the first that has
+// any planner is asked for the default.
 #pragma once
 
 #include <memory>

@@ -73,7 +73,7 @@ def commands():
 NUMBER = r'[-+0-9.eE]+'
 VOLATILE = [
     (re.compile(r'"(stages_s|counters_of_the_machine|machine)": \{[^}]*\}'), r'"\1": {}'),
-    (re.compile(r'"(solve_s|generate_s|peak_memory_bytes|threads|seconds|[a-z_]*_s|cells_per_s)": (' + NUMBER + r'|null)'), r'"\1": 0'),
+    (re.compile(r'"(solve_s|generate_s|peak_memory_bytes|threads|seconds|[a-z_]*_s|cells_per_s)": ?(' + NUMBER + r'|null)'), r'"\1": 0'),
     (re.compile(r'\d[\d.,\u202f ]* ?(ns|us|µs|ms|s|min|KiB|MiB|GiB|B)\b'), 'T'),
     (re.compile(r'-?\d+(\.\d+)?e-\d+|-?0\.00\d+'), 'small'),
     (re.compile(r'^(  stages|  chain|  solve|  memory| {16}).*$', re.M), ''),

@@ -63,6 +63,7 @@ TEST(BadInput, SceneTextThatContradictsItsFormatIsRefusedWithItsLine) {
                       {"NaN", "0 0 1 nan\n", ":1:"},
                       {"infinity", "0 0 1 1\n0 0 inf 1\n", ":2:"},
                       {"1e308", "0 0 1e308 1\n", ":1:"},
+                      {"two signs", "0 0 1 +-1\n", ":1:"},
                       {"1e999", "0 0 1e999 1\n", ":1:"},
                       {"hexadecimal letters", "0 0 0xzz 1\n", ":1:"},
                       {"binary garbage", "\x01\x02\xff\xfe\x00garbage\x7f"s, "bad.scene"},

@@ -53,7 +53,7 @@ std::optional<double> number_or_degrees(std::string_view text) {
 }  // namespace
 
 std::optional<double> number_in(std::string_view text) {
-  if (text.starts_with('+')) text.remove_prefix(1);
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   return studies::number_in_word(text);
 }
 

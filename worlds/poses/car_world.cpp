@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The motion check (CarBody), which the header's head explains, and what a car pays (PricedCar).
 #include "worlds/poses/car_world.hpp"
 
 #include <algorithm>

@@ -4,7 +4,9 @@
 // body is a disc around the reference point or a polygon; the turning radius of the reference point is a number of its
 // own.
 //
-// Every motion is certified free all along (worlds/poses/certified_motion.hpp): on a straight piece each point of the
+// Every motion is certified free all along (worlds/poses/certified_motion.hpp), by how far the body is from each
+// polygon, wall and bound (BodyAmongObstacles in worlds/poses/obstacle_tree.hpp) at poses of the curve, the closer
+// together the nearer it is: on a straight piece each point of the
 // body goes as far as the reference point, on an arc farther by the ratio of its distance from the turning centre to
 // the turning radius (of a disc, which looks the same however it is turned, the middle alone counts). Without bounds
 // the reference point stays in the obstacles' box, on the curve too. The metric is the curve's length; for Dubins

@@ -156,6 +156,7 @@ TEST(MoveIt, LinksAreAsLargeAsTheirFilesSay) {
            "}]\nlink_scale: [{link_name: hand, scale: " + scale + "}]\n";
   };
   EXPECT_NO_THROW(read_moveit(scene("0", "1")));
+  EXPECT_NO_THROW(read_moveit(scene("-1e-400", "+1")));
   EXPECT_THROW(read_moveit(scene("0.01", "1")), InputError);
   EXPECT_THROW(read_moveit(scene("0", "1.1")), InputError);
 }
@@ -387,6 +388,7 @@ TEST(MoveIt, RefusesWhatItDoesNotRead) {
       {with(scene_text, "[0.2, 0.4, 0.6]", "[0.2, x, 0.6]"),
        "a.yaml:29: `dimensions` must be a number of at most 1e60 (found: x)"},
       {with(scene_text, "[0.2, 0.4, 0.6]", "[0.2, .nan, 0.6]"), "a.yaml:29: `dimensions` must be a number"},
+      {with(scene_text, "[0.2, 0.4, 0.6]", "[0.2, +-0.4, 0.6]"), "a.yaml:29: `dimensions` must be a number"},
       {with(scene_text, "{x: 0, y: 0, z: 1, w: 1}", "[0, 0, 0, 0]"), "a.yaml:27: a quaternion must not be 0 0 0 0"},
       {with(scene_text, "    - id: ball", "    - planes: [{coef: [0, 0, 1, 0]}]"), "a.yaml:35: planes are not read"},
       {with(scene_text, "frame_id: hand", "frame_id: arm"), "a.yaml:21: what is attached must be in the frame hand"},

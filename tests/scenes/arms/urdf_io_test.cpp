@@ -214,6 +214,13 @@ TEST_F(Urdf, SoftLimitsAreToldNotKept) {
   EXPECT_EQ(model.told[0], "j keeps <limit>, -1 to 2, not its soft limits, -0.9 to 2");
 }
 
+TEST_F(Urdf, NumbersNearToZeroAreZero) {
+  const std::string near = "<limit lower=\"-1e-400\" upper=\"+1\"/><origin xyz=\"1e-400 2 -1e-101\"/>";
+  const ArmModel model = read(robot(link("a") + link("b") + joint("j", "revolute", "a", "b", near)));
+  EXPECT_EQ(model.variables[0].low, 0.0);
+  EXPECT_EQ(Vec3(model.joints[0].origin.translation()), Vec3(0, 2, 0));
+}
+
 TEST_F(Urdf, JointsOutsideAreHeldWhereTheirLimitsOrTheSceneSay) {
   ArmFiles files;
   files.group = "right";
@@ -430,6 +437,7 @@ TEST_F(Urdf, RefusesWhatItCannotReadAsItIsMeant) {
       {with("prismatic", "<limit lower=\"1\"/>"), "a joint that moves needs <limit"},
       {with("revolute", "<limit lower=\"2\" upper=\"1\"/>"), "`lower` must not exceed `upper` (found: 2)"},
       {with("revolute", "<limit lower=\"x\" upper=\"1\"/>"), "`lower` must be a number (found: x)"},
+      {with("revolute", "<limit lower=\"+-1\" upper=\"1\"/>"), "`lower` must be a number (found: +-1)"},
       {with("revolute", "<limit lower=\"0\" upper=\"1\" velocity=\"-1\"/>"), "`velocity` must be at least 0"},
       {with("revolute", limit + "<axis xyz=\"0 0 0\"/>"), "the axis has no direction"},
       {with("revolute", limit + "<axis xyz=\"0 1\"/>"), "expected 3 numbers (found: 0 1)"},

@@ -148,7 +148,9 @@ TEST(Wkt, EveryKindOfGeometryIsRead) {
   EXPECT_EQ(outlines(scene), (std::vector<Outline>{triangle, square}));
   ASSERT_EQ(scene.walls.size(), 4U);
   EXPECT_EQ(scene.walls.segment(1), (Segment{{3, 4}, {-5.5, 0.5}}));
+  const std::string near = "0." + std::string(350, '0') + "1e+9";
   EXPECT_EQ(read("LINESTRING (1e-400 +1e-101, 2 2)").walls.segment(0), (Segment{{0, 0}, {2, 2}}));
+  EXPECT_EQ(read("LINESTRING (" + near + " 0, 2 2)").walls.segment(0), (Segment{{0, 0}, {2, 2}}));
 }
 
 TEST(Wkt, WhatIsNoneIsRefusedWithItsLine) {
@@ -160,6 +162,8 @@ TEST(Wkt, WhatIsNoneIsRefusedWithItsLine) {
   expect_refused("POLYGON ((0 0, 4 nan, 0 3, 0 0))", "a number");
   expect_refused("POLYGON ((0 0, 4 0.5.7, 0 3, 0 0))", "a number");
   expect_refused("LINESTRING (0 0-1, 2 2)", "a number");
+  expect_refused("LINESTRING (0 +-1, 2 2)", "a finite number");
+  expect_refused("LINESTRING (0 1" + std::string(350, '0') + "e-40, 2 2)", "at most 1e60");
   expect_refused("POLYGON ((0 0, 4 1e70, 0 3, 0 0))", "at most 1e60");
   expect_refused("POLYGON ((0 0, 4 1e999, 0 3, 0 0))", "at most 1e60");
   expect_refused("LINESTRING (1 1)", "two positions");

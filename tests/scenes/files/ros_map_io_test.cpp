@@ -68,6 +68,9 @@ TEST(RosMap, OriginIsTheLowerLeftCornerTurnedByTheYaw) {
   EXPECT_NEAR(p.y, 2.0 + 0.175, 1e-6);
   EXPECT_EQ(cell_at(map, p), (Cell{3, 0}));
   EXPECT_FALSE(cell_at(map, {-1.0 + 0.01, 2.01}));
+  yaml = yaml_text();
+  yaml.replace(yaml.find("-1.0"), 4, "+1e-400");
+  EXPECT_NEAR(cell_centre(fixture.read(yaml), {0, 0}).x, 0.025, 1e-12);
 }
 
 TEST(RosMap, ThresholdsNegateAndModesFollowTheServersRules) {
@@ -236,6 +239,7 @@ TEST(RosMap, RefusesBadKeysWithFileAndLine) {
       {with(", 0.0]", "]"), ":3: `origin` must be three numbers, [x, y, yaw]"},
       {with("0.0]", "0.0, 1]"), ":3: `origin` must be three numbers, [x, y, yaw]"},
       {with("0.0]", "north]"), ":3: `origin` must be three numbers, [x, y, yaw] (found: north)"},
+      {with("2.0", "+-2"), ":3: `origin` must be three numbers, [x, y, yaw] (found: +-2)"},
       {with("0.65", "1.5"), ":4: `occupied_thresh` must be a number from 0 to 1 (found: 1.5)"},
       {with("0.196", "0.7"), ": `free_thresh` must not be above `occupied_thresh`"},
       {with("negate: 0", "negate: 2"), ":6: `negate` must be 0 or 1 (found: 2)"},

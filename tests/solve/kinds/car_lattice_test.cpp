@@ -400,6 +400,37 @@ TEST(CarLattice, MemoryForTheJudgeIsKeptBackOnceThereIsAPath) {
   EXPECT_GT(cut, 0U);
 }
 
+/// Nothing is met, and of the search's lists the open one alone grows.
+struct BlockedStarts {
+  std::vector<LatticeStart> all;
+
+  static std::uint32_t width() { return 1; }
+  static std::uint32_t height() { return 1; }
+  static std::uint32_t headings() { return 1; }
+  static std::span<const LatticeMotion> motions_from(std::uint32_t) { return {}; }
+  static bool is_free(Cell, const LatticeMotion&) { return false; }
+  static std::uint64_t extra(Cell, std::uint32_t, const LatticeMotion&) { return 0; }
+  static std::uint64_t at_least(Cell, std::uint32_t) { return 0; }
+  std::span<const LatticeStart> starts() const { return all; }
+  static bool is_free_start(std::size_t) { return false; }
+  static bool joins(Cell) { return false; }
+  static std::optional<LatticeShot> shot(Cell, std::uint32_t, std::int8_t, std::uint64_t, std::uint64_t) { return {}; }
+  static std::optional<LatticeShot> direct_shot(std::uint64_t, std::uint64_t) { return {}; }
+  static std::uint64_t shot_pause(std::uint64_t) { return 1; }
+};
+
+TEST(CarLattice, TheOpenListAsksForItsMemory) {
+  BlockedStarts space{.all = std::vector<LatticeStart>(100'000)};
+  const LatticeSearchOptions options;
+  EXPECT_FALSE(LatticeSearch(space, options, execution).run().found());
+  const Deadline all(std::numeric_limits<double>::infinity(), resident_bytes() + (std::size_t{1} << 32U));
+  const Deadline counted(&all, CountedRoom{std::size_t{1} << 20U});  // of 1.6 MB
+  Execution on;
+  on.deadline = &counted;
+  LatticeSearch search(space, options, on);
+  EXPECT_EQ(stopped_by([&] { search.run(); }), StopReason::memory);
+}
+
 TEST(CarLattice, ShortGoalsInTheOpenAreDrivenStraightThere) {
   for (const std::uint64_t seed : test::seeds(10'000, 6)) {
     SCOPED_TRACE(seed);

@@ -44,6 +44,7 @@ TEST(QuestionWords, PricesAreRead) {
 TEST(QuestionWords, GoalsAndTheirRulesAreRead) {
   const Question several = question_of({"--goal", "1,2", "--goal", "3,4", "--goal", "5,6"});
   EXPECT_EQ(several.goal, (std::vector<double>{1, 2}));
+  EXPECT_EQ(question_of({"--goal", "1e-400,+2"}).goal, (std::vector<double>{0, 2}));
   EXPECT_EQ(several.rule.others, (std::vector<std::vector<double>>{{3, 4}, {5, 6}}));
   EXPECT_TRUE(std::isinf(*question_of({"--goal-tolerance", "inf"}).rule.tolerance));
   const GoalRule near = question_of({"--goal-tolerance", "0.5,90deg"}).rule;
