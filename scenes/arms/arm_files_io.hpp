@@ -32,7 +32,7 @@ ArmModel read_urdf(const ArmFiles& files, const Execution& execution);
 struct LinkFrame {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< where `open` is empty
   std::string moves_with = {};                             ///< the last joint above it that can move; empty: none
-  std::string open = {};                                   ///< a joint above it that nobody holds; empty: none
+  std::string open = {};                                   ///< a joint that moves it and that nobody holds; empty: none
 };
 
 /// By the names of links, with the root as the SRDF's virtual joint calls it, too. Joints are where `held` says, and
