@@ -86,7 +86,7 @@ class CellField {
     there = value;
     const std::size_t bucket = value >> shift_;
     if (bucket >= buckets_.size()) {
-      if (bucket >= buckets_.capacity()) execution_.reserve(2 * bucket * sizeof(buckets_[0]));
+      if (bucket >= buckets_.capacity()) execution_.reserve(2 * bucket * sizeof(std::vector<std::uint32_t>));
       buckets_.resize(bucket + 1);
     }
     push_asked(buckets_[bucket], static_cast<std::uint32_t>(number), execution_);
