@@ -305,28 +305,29 @@ void check_pieces(const LatticePlaces& places, const PieceArrays& pieces) {
 
 /// Fronts follow each other without gaps in all that they have.
 void check_fronts(const FrontArrays& arrays) {
+  const std::span<const Front> fronts = arrays.fronts.span();
   const std::size_t gates = arrays.gate_place.size();
+  const std::size_t bounds = arrays.bounds.size();
+  const std::size_t ways = arrays.ways.size();
+  const std::array<std::uint64_t, 2> lengths{arrays.lengths.size(), arrays.short_lengths.size()};
   std::uint64_t first = 0;
   std::uint64_t bound = 0;
-  std::uint64_t wide = 0;
-  std::uint64_t narrow = 0;
   std::uint64_t way = 0;
-  for (std::size_t i = 0; i < arrays.fronts.size(); ++i) {
-    const Front& f = arrays.fronts[i];
-    std::uint64_t& length = f.is_short() ? narrow : wide;
+  std::array<std::uint64_t, 2> length{};
+  for (std::size_t i = 0; i < fronts.size(); ++i) {
+    const Front& f = fronts[i];
+    const std::size_t kind = f.is_short() ? 1 : 0;
     const std::uint64_t entries = row_offset(f.gates, f.gates, f.bounds);
-    require(f.first == first && f.first_bound == bound && f.first_length() == length && f.gates >= 1, "fronts");
+    require(f.first == first && f.first_bound == bound && f.first_length() == length[kind] && f.gates >= 1, "fronts");
     require(f.first_way() == way && f.way_elements() <= 4, "fronts");
     first += f.gates;
     bound += f.bounds;
-    length += entries;
+    length[kind] += entries;
     way += entries * f.way_elements();
-    require(first <= gates && bound <= arrays.bounds.size() && wide <= arrays.lengths.size(), "fronts");
-    require(narrow <= arrays.short_lengths.size() && way <= arrays.ways.size(), "fronts");
-    require(f.parent == no_front || (f.parent > i && f.parent < arrays.fronts.size()), "fronts");
+    require(first <= gates && bound <= bounds && length[kind] <= lengths[kind] && way <= ways, "fronts");
+    require(f.parent == no_front || (f.parent > i && f.parent < fronts.size()), "fronts");
   }
-  require(first == gates && bound == arrays.bounds.size() && wide == arrays.lengths.size(), "fronts");
-  require(narrow == arrays.short_lengths.size() && way == arrays.ways.size(), "fronts");
+  require(first == gates && bound == bounds && length == lengths && way == ways, "fronts");
 }
 
 /// What an index of views relies on: arrays have the sizes that the lattice and the others ask for, and fronts lie in

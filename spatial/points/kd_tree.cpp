@@ -56,9 +56,36 @@ struct TreePoints {
   }
 };
 
+/// Coordinates, and on how many of the first axes they or any point's are not 0: a robot of six joints has six of 16.
 template <int D>
-using FlannTree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, TreePoints<D>>,
-                                                      TreePoints<D>, D, std::uint32_t>;
+using TreeQuery = std::array<double, D + 1>;
+
+template <int D>
+double squared_distance(const double* query, const PointOf<D>& p) {
+  const std::size_t axes = D > 4 ? static_cast<std::size_t>(query[D]) : D;
+  double sum = 0.0;
+  for (std::size_t axis = 0; axis < axes; ++axis) {
+    const double d = query[axis] - coordinate<D>(p, axis);
+    sum += d * d;
+  }
+  return sum;
+}
+
+/// nanoflann's L2_Simple_Adaptor, from a TreeQuery.
+template <int D>
+struct SquareOfQuery {
+  using ElementType = double;
+  using DistanceType = double;
+  const TreePoints<D>& view;
+  explicit SquareOfQuery(const TreePoints<D>& of) : view(of) {}
+  double evalMetric(const double* query, std::uint32_t i, std::size_t) const {  // NOLINT(readability-identifier-naming)
+    return squared_distance<D>(query, view.points[i]);
+  }
+  double accum_dist(double a, double b, std::size_t) const { return (a - b) * (a - b); }
+};
+
+template <int D>
+using FlannTree = nanoflann::KDTreeSingleIndexAdaptor<SquareOfQuery<D>, TreePoints<D>, D, std::uint32_t>;
 
 template <int D>
 struct Tree {
@@ -214,6 +241,7 @@ struct KdTree<D>::Forest {
   RawVector<std::uint32_t> place_of;            // of the ids
   RawVector<std::uint32_t> first;               // place of each subtree's first point
   std::vector<std::unique_ptr<Tree<D>>> trees;  // null where there is no point
+  std::size_t axes = D;                         // all points are 0 on those behind
 
   Forest(std::span<const Point> input, const Execution& execution) : top(input) {
     const Execution quiet = execution.quiet();
@@ -225,6 +253,10 @@ struct KdTree<D>::Forest {
     points.resize(input.size());
     place_of.resize(input.size());
     trees.resize(top.leaves);
+    if constexpr (D > 4) {
+      axes = 0;
+      for (const Point& p : input) axes = axes_of(p, axes);
+    }
     for_chunks(top.leaves, 1, quiet, [&](Range range) { plant(range.first, input); });
     for_each_index(input.size(), tree_grain, quiet,
                    [&](std::size_t i) { place_of[ids[i]] = as_whole<std::uint32_t>(i); });
@@ -248,23 +280,34 @@ struct KdTree<D>::Forest {
     std::iota(index.vAcc.begin(), index.vAcc.end(), 0U);
   }
 
+  /// At least `least`; of the first axes, as many as p isn't 0 on.
+  static std::size_t axes_of(const Point& p, std::size_t least) {
+    std::size_t axes = D;
+    while (axes > least && coordinate<D>(p, axes - 1) == 0.0) --axes;
+    return axes;
+  }
+  TreeQuery<D> query_at(const Point& p) const {
+    TreeQuery<D> query;
+    for (std::size_t axis = 0; axis < D; ++axis) query[axis] = coordinate<D>(p, axis);
+    query[D] = static_cast<double>(axes_of(p, axes));
+    return query;
+  }
+
   /// Shows the result set all points that may be nearer than its worst one, the likeliest subtrees first.
   template <class Results>
-  void search(const Point& p, Results& results, std::size_t node = 1) const {
-    if (node >= top.leaves) return search_tree(p, results, node - top.leaves);
-    const double ahead = coordinate<D>(p, top.cuts[node].axis) - top.cuts[node].value;
+  void search(const TreeQuery<D>& query, Results& results, std::size_t node = 1) const {
+    if (node >= top.leaves) return search_tree(query, results, node - top.leaves);
+    const double ahead = query[top.cuts[node].axis] - top.cuts[node].value;
     const std::size_t near = 2 * node + (ahead >= 0.0 ? 1 : 0);
-    search(p, results, near);
-    if (ahead * ahead <= results.worstDist()) search(p, results, near ^ 1);
+    search(query, results, near);
+    if (ahead * ahead <= results.worstDist()) search(query, results, near ^ 1);
   }
   template <class Results>
-  void search_tree(const Point& p, Results& results, std::size_t leaf) const {
+  void search_tree(const TreeQuery<D>& query, Results& results, std::size_t leaf) const {
     if (trees[leaf] == nullptr) return;
     const auto& index = trees[leaf]->index;
-    std::array<double, D> query;
     double gap_sq = 0.0;  // to the box of the subtree's points
     for (std::size_t axis = 0; axis < D; ++axis) {
-      query[axis] = coordinate<D>(p, axis);
       const double nearest = std::clamp(query[axis], index.root_bbox[axis].low, index.root_bbox[axis].high);
       gap_sq += (query[axis] - nearest) * (query[axis] - nearest);
     }
@@ -276,34 +319,31 @@ struct KdTree<D>::Forest {
   /// Shows take(id, distance) all points within the radius. The cuts alone say where they may lie, and a leaf is one
   /// run of memory; nanoflann's own search keeps the distance to each box. reach: a radius, a little longer.
   template <class Take>
-  void visit_within(const Point& p, double square, double reach, const Take& take, std::size_t node = 1) const {
+  void visit_within(const TreeQuery<D>& query, double square, double reach, const Take& take,
+                    std::size_t node = 1) const {
     if (node >= top.leaves) {
       const auto& tree = trees[node - top.leaves];
-      if (tree != nullptr) visit_nodes(p, square, reach, first[node - top.leaves], tree->index.root_node, take);
+      if (tree != nullptr) visit_nodes(query, square, reach, first[node - top.leaves], tree->index.root_node, take);
       return;
     }
-    const double ahead = coordinate<D>(p, top.cuts[node].axis) - top.cuts[node].value;
-    if (ahead <= reach) visit_within(p, square, reach, take, 2 * node);
-    if (-ahead <= reach) visit_within(p, square, reach, take, 2 * node + 1);
+    const double ahead = query[top.cuts[node].axis] - top.cuts[node].value;
+    if (ahead <= reach) visit_within(query, square, reach, take, 2 * node);
+    if (-ahead <= reach) visit_within(query, square, reach, take, 2 * node + 1);
   }
   template <class Take>
-  void visit_nodes(const Point& p, double square, double reach, std::size_t begin,
+  void visit_nodes(const TreeQuery<D>& query, double square, double reach, std::size_t begin,
                    const typename FlannTree<D>::Node* node, const Take& take) const {
     while (node->child1 != nullptr) {
       const auto& cut = node->node_type.sub;
-      const double at = coordinate<D>(p, as_whole<std::size_t>(cut.divfeat));
+      const double at = query[as_whole<std::size_t>(cut.divfeat)];
       const bool low = at - cut.divlow <= reach;
       const bool high = cut.divhigh - at <= reach;
       if (!low && !high) return;
-      if (low && high) visit_nodes(p, square, reach, begin, node->child1, take);
+      if (low && high) visit_nodes(query, square, reach, begin, node->child1, take);
       node = high ? node->child2 : node->child1;
     }
     for (std::size_t i = begin + node->node_type.lr.left; i < begin + node->node_type.lr.right; ++i) {
-      double sum = 0.0;
-      for (std::size_t axis = 0; axis < D; ++axis) {
-        const double d = coordinate<D>(p, axis) - coordinate<D>(points[i], axis);
-        sum += d * d;
-      }
+      const double sum = squared_distance<D>(query.data(), points[i]);
       if (sum <= square) take(ids[i], std::sqrt(sum));
     }
   }
@@ -347,7 +387,7 @@ void KdTree<D>::nearest(const Point& p, std::size_t k, VertexId except, std::vec
   out.clear();
   if (k == 0 || forest_ == nullptr) return;
   NearestSet results(k, except, out);
-  forest_->search(p, results);
+  forest_->search(forest_->query_at(p), results);
   results.finish();
 }
 
@@ -355,7 +395,8 @@ template <int D>
 void KdTree<D>::visit_within(const Point& p, const SearchRadius& radius, const void* visit, Call call) const {
   if (forest_ == nullptr || radius.square() < 0.0) return;
   const double reach = std::sqrt(loose_square(radius.length()));
-  forest_->visit_within(p, radius.square(), reach, [&](VertexId id, double distance) { call(visit, id, distance); });
+  forest_->visit_within(forest_->query_at(p), radius.square(), reach,
+                        [&](VertexId id, double distance) { call(visit, id, distance); });
 }
 
 template class KdTree<2>;

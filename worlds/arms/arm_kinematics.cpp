@@ -46,6 +46,18 @@ Eigen::Matrix3d turn_about(const Vec3& axis, double angle) {
   return turn;
 }
 
+/// From the frame before a joint to the one behind it.
+void pass_joint(const ArmJoint& joint, const JointState& q, Eigen::Matrix3d& turn, Vec3& at) {
+  const double value = joint.multiplier * q[joint.variable] + joint.offset;
+  at = turn * joint.origin.translation() + at;
+  turn *= joint.origin.linear();
+  if (joint.slides) {
+    at += turn * (value * joint.axis);
+  } else {
+    turn *= turn_about(joint.axis, value);
+  }
+}
+
 }  // namespace
 
 ArmKinematics::ArmKinematics(ArmModel model) : model_(std::move(model)) {
@@ -110,28 +122,25 @@ const MovingFrame& ArmKinematics::frame(const ArmPosture& posture, int number) {
 
 void ArmKinematics::place(const JointState& q, ArmPosture& posture) const {
   for (std::size_t j = 0; j < model_.joints.size(); ++j) {
-    const ArmJoint& joint = model_.joints[j];
-    const MovingFrame& parent = frame(posture, joint.parent);
-    const double value = joint.multiplier * q[joint.variable] + joint.offset;
+    const MovingFrame& parent = frame(posture, model_.joints[j].parent);
     MovingFrame& own = posture[j];
-    own = {};
-    own.turn = parent.turn * joint.origin.linear();
-    own.at = parent.turn * joint.origin.translation() + parent.at;
-    if (joint.slides) {
-      own.at += own.turn * (value * joint.axis);
-    } else {
-      own.turn *= turn_about(joint.axis, value);
-    }
+    own = {.turn = parent.turn, .at = parent.at};
+    pass_joint(model_.joints[j], q, own.turn, own.at);
   }
 }
 
 Eigen::Isometry3d ArmKinematics::tool_pose(const JointState& q) const {
-  ArmPosture posture;
-  place(q, posture);
-  const MovingFrame& last = frame(posture, model_.tool_frame);
+  std::array<std::size_t, most_frames> behind;  // NOLINT(*-member-init): only what is written is read
+  std::size_t count = 0;
+  for (int at = model_.tool_frame; at != base_frame; at = model_.joints[frame_number(at)].parent) {
+    behind[count++] = frame_number(at);
+  }
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  Vec3 place = Vec3::Zero();
+  while (count > 0) pass_joint(model_.joints[behind[--count]], q, turn, place);
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.linear() = last.turn;
-  pose.translation() = last.at;
+  pose.linear() = turn;
+  pose.translation() = place;
   return pose * model_.tool;
 }
 

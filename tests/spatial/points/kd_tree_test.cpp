@@ -135,6 +135,22 @@ TYPED_TEST(KdTreeIn, AForestKeepsThePointsAndTiesAcrossTrees) {
   EXPECT_EQ(found, (std::vector<Neighbour>{{18, 0.0}, {31, 0.0}, {44, 0.0}, {57, 0.0}}));
 }
 
+TEST(KdTree, OfPointsOnFewAxesTakesPlacesBesideThem) {
+  std::vector<PointOf<16>> points = even_points<16>(500);
+  for (PointOf<16>& p : points) std::fill(p.begin() + 6, p.end(), 0.0);
+  const KdTree<16> tree(points, {});
+  std::vector<Neighbour> found;
+  for (const std::size_t axis : {5, 6, 15}) {
+    PointOf<16> beside = points[7];
+    beside[axis] = 3.0;
+    const std::vector<Neighbour> all = all_by_distance<16>(points, beside, no_vertex);
+    tree.nearest(beside, 20, no_vertex, found);
+    EXPECT_EQ(found, std::vector<Neighbour>(all.begin(), all.begin() + 20)) << axis;
+    tree.within(beside, all[20].distance, no_vertex, found);
+    EXPECT_EQ(found, std::vector<Neighbour>(all.begin(), all.begin() + 21)) << axis;
+  }
+}
+
 TYPED_TEST(KdTreeIn, NeighboursEqualBruteForce) {
   constexpr int D = TypeParam::value;
   for (const std::uint64_t seed : test::seeds(5, 2, 0)) {
