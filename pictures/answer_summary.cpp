@@ -44,8 +44,7 @@ std::string why_not_connected(const Answer& answer) {
     return fmt::format("{} no way was found; there may be one", from);
   }
   const auto planner = enum_named<PlannerKind>(answer.planner);
-  const bool by_trees =
-      planner && (*planner == PlannerKind::rrt || *planner == PlannerKind::rrt_connect || gets_better(*planner));
+  const bool by_trees = planner && (is_tree_planner(*planner) || gets_better(*planner));
   return fmt::format("{} start and goal; {} might",
                      by_trees ? "these samples do not join" : "this roadmap does not join",
                      by_trees ? "others" : "another");

@@ -200,7 +200,7 @@ class Hints {
   void add_connecting() {
     const PlannerKind planner = *options_.planner;
     if (is_roadmap_planner(planner)) add_for_roadmaps();
-    if (planner == PlannerKind::rrt || planner == PlannerKind::rrt_connect) add_for_trees();
+    if (is_tree_planner(planner)) add_for_trees();
     if (planner == PlannerKind::grid) add_for_grids();
     if (answer_.problem.clearance > 0.0) {
       hints_.push_back(

@@ -37,7 +37,7 @@ std::optional<std::uint64_t> cells_of(const Answer& answer, const Scene& scene,
 
 /// Trees settle no vertices in a search; they grow them.
 std::uint64_t expanded_by(const Answer& answer) {
-  const bool grows = answer.planner == name_of(PlannerKind::rrt) || answer.planner == name_of(PlannerKind::rrt_connect);
+  const bool grows = is_tree_planner(enum_named<PlannerKind>(answer.planner).value_or(PlannerKind::prm));
   return grows ? answer.roadmap.milestones : answer.counters.expanded;
 }
 
@@ -304,7 +304,7 @@ std::vector<PlannerContender> without_strange_options(std::vector<PlannerContend
 
 bool depends_on_seed(const Answer& answer, const SolveOptions& options, const Scene& scene) {
   const auto planner = enum_named<PlannerKind>(answer.planner);
-  if (!planner || *planner == PlannerKind::rrt || *planner == PlannerKind::rrt_connect || gets_better(*planner)) {
+  if (!planner || is_tree_planner(*planner) || gets_better(*planner)) {
     return true;
   }
   if (is_roadmap_planner(*planner)) {

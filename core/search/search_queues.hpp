@@ -2,10 +2,10 @@
 // The queues of a search: an indexed heap, and what users compare with it. All pop in the order (key, vertex), so that
 // the search takes the same steps with each; those without decrease-key keep stale entries, which the search skips
 // because their vertex is settled already.
-//   IndexedHeap     d-ary heap with decrease-key: push and pop O(log n)
+//   IndexedHeap     d-ary heap with decrease-key: push and pop O(log n); the usual one
 //   LazyHeap        binary heap, duplicates allowed: push and pop O(log n)
-//   BucketQueue     circular buckets of keys, the first one in order: push O(1), pop O(log of a bucket)
-//   SortedArray     kept sorted by insertion: push O(n) moves, pop O(1)
+//   BucketQueue     circular buckets of keys, the first one in order: push O(1), pop O(log of a bucket); of maps
+//   SortedArray     kept sorted by insertion: push O(n) moves, pop O(1); these three for `compare` alone
 //   ResortedArray   sorted again after every push, as the course reports do: push O(n log n)
 //   LinearScan      an unordered array, searched for its least entry: push O(1), pop O(n)
 #pragma once

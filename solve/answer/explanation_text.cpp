@@ -28,7 +28,7 @@ std::string share(std::uint64_t part, std::uint64_t whole) {
 std::uint64_t blocked_edges(const Counters& c) { return c.edges_checked - c.edges_free - c.refused; }
 
 bool by_trees(const Answer& answer) {
-  return answer.planner == name_of(PlannerKind::rrt) || answer.planner == name_of(PlannerKind::rrt_connect);
+  return is_tree_planner(enum_named<PlannerKind>(answer.planner).value_or(PlannerKind::prm));
 }
 
 /// Samplers that look for free states take others, too, and drop them.

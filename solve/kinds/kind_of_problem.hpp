@@ -3,16 +3,25 @@
 // the file of its kind of world (solve/kinds; that of streamed mazes in solve/streamed); the table of all of them is in
 // kind_of_problem.cpp.
 //
-// To add a planner: its code in planners/, its name in PlannerKind and all_planners (solve_options.hpp), and for each
-// kind that has it a line in the `NAME_planners` of the kind's file and a branch in its solve_NAME(). The line has the
-// options that the planner takes beyond planner and seed (every other one is refused, by name, before the planner sees
-// it), and the words of questions that it respects (asked_words.hpp: prices, restrictions, goals; the same). Bodies
-// that sample share their branch, SampledSolve::run() (sampled_solve.hpp); for them the planner is compiled in
-// planned_*.cpp. An option that nobody had yet: solve_options.hpp. The test matrix: tests/matrix/planners.table.
+// To add a planner:
+// 1. its code in planners/;
+// 2. solve_options.hpp: PlannerKind, its name, all_planners, what is_tree_planner() and the others beside it say of it,
+//    and an option that nobody had yet;
+// 3. for each kind that has it a line in the `NAME_planners` of the kind's file (here and
+// solve/streamed/solve_walls.cpp)
+//    and a branch in what solves it. The line has the options that the planner takes beyond planner and seed (every
+//    other one is refused, by name, before the planner sees it), and the words of questions that it respects
+//    (asked_words.hpp: prices, restrictions, goals; the same);
+// 4. for bodies that sample, whose branch is shared: plan(), plan_roadmap() or grow_trees() of SampledSolve
+//    (sampled_solve.hpp), planned_worlds.hpp and planned_*.cpp, where it is compiled;
+// 5. the help (tools/words/planner_words.cpp), Python's (apps/python/warren/_worlds.pyi, _errors.py), the page's
+//    (apps/serve/page/better.js);
+// 6. tests/matrix/planners.table, of which README's table is made, and matrix_checks.cpp there;
+// 7. docs/file_formats.md, algorithms.md, other_names.md.
 //
 // To add a kind: its file or a place in one, its declaration below, its line in the table. Several kinds may fit a
-// world (walls are plane obstacles too): the first in the table that has the planner solves it, and the first that has
-// any planner is asked for the default.
+// world (walls are plane obstacles too): the first in the table that has the planner, and takes all words and options,
+// solves it; the first that has any planner is asked for the default.
 #pragma once
 
 #include <memory>

@@ -63,8 +63,16 @@ constexpr bool keeps_roadmap(PlannerKind planner) {
          planner == PlannerKind::voronoi;
 }
 
+/// Does it grow trees until they meet the goal?
+constexpr bool is_tree_planner(PlannerKind planner) {
+  return planner == PlannerKind::rrt || planner == PlannerKind::rrt_connect;
+}
+
 /// Does it get better until it is stopped?
-constexpr bool gets_better(PlannerKind planner) { return planner >= PlannerKind::rrt_star; }
+constexpr bool gets_better(PlannerKind planner) {
+  return planner == PlannerKind::rrt_star || planner == PlannerKind::informed_rrt_star ||
+         planner == PlannerKind::anytime;
+}
 
 /// How prm works: stage by stage over the whole world; tile by tile with all stages of a tile in cache; or so that
 /// nothing of a tile is kept but what paths through it need, and its walls neither where they can be made again.

@@ -9,6 +9,7 @@
 #include <nanoflann.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -56,13 +57,14 @@ struct TreePoints {
   }
 };
 
-/// Coordinates, and on how many of the first axes they or any point's are not 0: a robot of six joints has six of 16.
+/// Coordinates, and the bits of a number: on how many of the first axes they or any point's are not 0. Of 16 axes a
+/// robot of six joints has six.
 template <int D>
 using TreeQuery = std::array<double, D + 1>;
 
 template <int D>
 double squared_distance(const double* query, const PointOf<D>& p) {
-  const std::size_t axes = D > 4 ? static_cast<std::size_t>(query[D]) : D;
+  const std::size_t axes = D > 4 ? std::bit_cast<std::uint64_t>(query[D]) : D;
   double sum = 0.0;
   for (std::size_t axis = 0; axis < axes; ++axis) {
     const double d = query[axis] - coordinate<D>(p, axis);
@@ -289,7 +291,7 @@ struct KdTree<D>::Forest {
   TreeQuery<D> query_at(const Point& p) const {
     TreeQuery<D> query;
     for (std::size_t axis = 0; axis < D; ++axis) query[axis] = coordinate<D>(p, axis);
-    query[D] = static_cast<double>(axes_of(p, axes));
+    query[D] = std::bit_cast<double>(std::uint64_t{axes_of(p, axes)});
     return query;
   }
 

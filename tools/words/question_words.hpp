@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a command line says about the question that a world is asked.
+// What a command line says about the question that a world is asked. A word's way from here: docs/design.md.
 #pragma once
 
 #include <span>
