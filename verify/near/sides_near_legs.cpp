@@ -14,13 +14,25 @@
 namespace warren {
 namespace {
 
-constexpr std::uint64_t most_cells_a_side = 64;
+/// Boxes of which one or none meets another box.
+class MetBoxes {
+ public:
+  MetBoxes(std::span<const Box> boxes, const Execution& execution)
+      : boxes_(boxes),
+        blocks_(
+            boxes.size(), [&](std::size_t i) { return boxes[i]; }, execution) {}
 
-template <class T>
-void sort_once_each(std::vector<T>& some) {
-  std::sort(some.begin(), some.end());
-  some.erase(std::unique(some.begin(), some.end()), some.end());
-}
+  bool meet(const Box& other) const {
+    bool found = false;
+    blocks_.for_each([&](const Box& block) { return found || !block.meets(other); },
+                     [&](std::size_t i) { found = found || boxes_[i].meets(other); });
+    return found;
+  }
+
+ private:
+  std::span<const Box> boxes_;
+  BoxBlocks blocks_;
+};
 
 }  // namespace
 
@@ -34,133 +46,21 @@ PathSurroundings::PathSurroundings(const Scene& scene, const Obstacles& obstacle
   }
 }
 
-/// Cells about as wide as the boxes, but not more than a million.
-void PathSurroundings::lay_grid(std::span<const Box> boxes, const Execution& execution) {
-  constexpr double most_cells = 1048576.0;
-  grid_ = {};
-  double sum = 0.0;
-  for (const Box& box : boxes) {
-    grid_.include(box);
-    sum += std::max(box.width(), box.height());
-  }
-  const double mean = sum / static_cast<double>(boxes.size());
-  const double longest = std::max(grid_.width(), grid_.height());
-  side_ = std::max({mean, longest / 65536.0, std::sqrt(grid_.width() / most_cells) * std::sqrt(grid_.height())});
-  if (!(side_ > 0.0) || !std::isfinite(side_)) side_ = 1.0;
-  columns_ = bounded_whole<std::uint32_t>(grid_.width() / side_, 0.0, 65536.0) + 1;
-  rows_ = bounded_whole<std::uint32_t>(grid_.height() / side_, 0.0, 65536.0) + 1;
-  marked_.assign(std::size_t{columns_} * rows_, false);
-  for (const Box& box : boxes) {
-    execution.check();
-    for_each_cell(range_of(box), [&](std::size_t cell) { marked_[cell] = true; });
-  }
-}
-
-PathSurroundings::Range PathSurroundings::range_of(const Box& box) const {
-  if (!box.meets(grid_)) return {1, 1, 0, 0};
-  const auto index = [&](double x, double low, std::uint32_t count) {
-    return bounded_whole<std::uint32_t>((x - low) / side_, 0.0, count - 1.0);
-  };
-  return {index(box.min.x, grid_.min.x, columns_), index(box.min.y, grid_.min.y, rows_),
-          index(box.max.x, grid_.min.x, columns_), index(box.max.y, grid_.min.y, rows_)};
-}
-
-template <class Visit>
-void PathSurroundings::for_each_cell(const Range& range, const Visit& visit) const {
-  if (range.first_x > range.last_x) return;
-  for (std::uint32_t y = range.first_y; y <= range.last_y; ++y) {
-    for (std::uint32_t x = range.first_x; x <= range.last_x; ++x) visit(std::size_t{y} * columns_ + x);
-  }
-}
-
-bool PathSurroundings::is_marked(const Range& range) const {
-  bool marked = false;
-  for_each_cell(range, [&](std::size_t cell) { marked = marked || marked_[cell]; });
-  return marked;
-}
-
+/// With an index there is nothing to do.
 void PathSurroundings::file(std::span<const Box> boxes, const Execution& execution) {
-  if (scene_.map || boxes.empty()) return;
-  lay_grid(boxes, execution);
-  sift(index_ != nullptr ? may_be_marked(boxes, execution) : std::nullopt, execution);
-  file_in_cells(execution);
-}
-
-/// Numbers of the obstacles whose cells share one with a box, by the index; nothing where a pass over all is as good. A
-/// block's cells hold those of its members, so none is missed.
-std::optional<std::vector<std::size_t>> PathSurroundings::may_be_marked(std::span<const Box> boxes,
-                                                                        const Execution& execution) const {
-  constexpr std::size_t numbers_a_poll = 4096;
-  execution.reserve(boxes.size() * sizeof(Range));
-  std::vector<Range> ranges;
-  for (const Box& box : boxes) ranges.push_back(range_of(box));
-  sort_once_each(ranges);
-  std::vector<std::size_t> numbers;
-  for (const Range& range : ranges) {
-    execution.check();
-    const auto skip = [&](const Box& box) {
-      const Range cells = range_of(box);
-      return cells.first_x > cells.last_x || !cells.overlaps(range) || numbers.size() >= obstacles_.size();
-    };
-    index_->sides().for_each(skip, [&](std::size_t number) {
-      if (numbers.size() % numbers_a_poll == 0) execution.reserve(numbers_a_poll * sizeof(std::size_t));  // and polls
-      numbers.push_back(number);
-    });
-  }
-  if (numbers.size() >= obstacles_.size()) return std::nullopt;
-  sort_once_each(numbers);
-  return numbers;
-}
-
-/// Keeps those of the obstacles of these numbers, of all where there are none, that meet marked cells, and all that lie
-/// across many.
-void PathSurroundings::sift(const std::optional<std::vector<std::size_t>>& numbers, const Execution& execution) {
+  if (scene_.map || index_ != nullptr) return;
   constexpr std::size_t grain = std::size_t{1} << 14;
-  struct Part {
-    std::vector<NearSide> near;
-    std::vector<NearSide> far_across;
-  };
-  const auto sides_in = [&](warren::Range r) {
-    Part part;
+  const MetBoxes asked(boxes, execution);
+  const auto near_in = [&](Range r) {
+    RawVector<std::size_t> near;
     for (std::size_t i = r.first; i < r.last; ++i) {
-      const std::size_t number = numbers ? (*numbers)[i] : i;
-      const NearSide side{obstacles_.segment(number), number};
-      const Range range = range_of(box_of(side.segment));
-      if (range.first_x > range.last_x) continue;
-      if (range.count() > most_cells_a_side) {
-        part.far_across.push_back(side);
-      } else if (is_marked(range)) {
-        part.near.push_back(side);
-      }
+      if (asked.meet(box_of(obstacles_.segment(i)))) near.push_back(i);
     }
-    return part;
+    return near;
   };
-  near_.clear();
-  long_.clear();
-  const std::size_t count = numbers ? numbers->size() : obstacles_.size();
-  for (const Part& part : parts_of_chunks(count, grain, execution, sides_in)) {
-    near_.insert(near_.end(), part.near.begin(), part.near.end());
-    long_.insert(long_.end(), part.far_across.begin(), part.far_across.end());
-  }
-}
-
-void PathSurroundings::file_in_cells(const Execution& execution) {
-  constexpr std::size_t obstacles_a_poll = 4096;
-  begin_.assign(marked_.size() + 1, 0);
-  const auto for_each_place = [&](const auto& visit) {
-    for (std::size_t n = 0; n < near_.size(); ++n) {
-      if (n % obstacles_a_poll == 0) execution.check();
-      for_each_cell(range_of(box_of(near_[n].segment)), [&](std::size_t cell) {
-        if (marked_[cell]) visit(cell, as_whole<std::uint32_t>(n));
-      });
-    }
-  };
-  for_each_place([&](std::size_t cell, std::uint32_t) { ++begin_[cell + 1]; });
-  for (std::size_t cell = 0; cell < marked_.size(); ++cell) begin_[cell + 1] += begin_[cell];
-  execution.reserve(begin_.back() * sizeof(std::uint32_t));
-  members_.resize(begin_.back());
-  std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
-  for_each_place([&](std::size_t cell, std::uint32_t n) { members_[next[cell]++] = n; });
+  near_ = joined_parts(parts_of_chunks(obstacles_.size(), grain, execution, near_in), execution);
+  near_sides_.emplace(
+      near_.size(), [&](std::size_t i) { return box_of(obstacles_.segment(near_[i])); }, execution);
 }
 
 void PathSurroundings::gather(std::span<const Box> boxes, std::vector<NearSide>& sides,
@@ -170,26 +70,15 @@ void PathSurroundings::gather(std::span<const Box> boxes, std::vector<NearSide>&
     for (const Box& box : boxes) gather_from_map(box, sides, execution);
     return;
   }
-  std::vector<std::uint32_t> cells;  // boxes one beside the other share them
-  for (const Box& box : boxes) {
-    for_each_cell(range_of(box),
-                  [&](std::size_t cell) { push_asked(cells, as_whole<std::uint32_t>(cell), execution); });
-  }
-  sort_once_each(cells);
-  std::vector<std::uint32_t> found;
-  for (const std::uint32_t cell : cells) {
-    for (std::uint32_t i = begin_[cell]; i < begin_[cell + 1]; ++i) push_asked(found, members_[i], execution);
-  }
-  sort_once_each(found);
-  const auto meets = [&](const NearSide& side) {
-    const Box around = box_of(side.segment);
-    return std::any_of(boxes.begin(), boxes.end(), [&](const Box& box) { return box.meets(around); });
+  const MetBoxes asked(boxes, execution);
+  const auto visit = [&](std::size_t i) {
+    const std::size_t number = index_ != nullptr ? i : near_[i];
+    const Segment segment = obstacles_.segment(number);
+    if (asked.meet(box_of(segment))) push_asked(sides, {segment, number}, execution);
   };
-  for (const std::uint32_t n : found) push_asked(sides, near_[n], execution);
-  for (const NearSide& side : long_) {
-    if (boxes.size() >= most_cells_a_side) execution.check();
-    if (meets(side)) push_asked(sides, side, execution);
-  }
+  const BoxBlocks& filed = index_ != nullptr ? index_->sides() : *near_sides_;
+  filed.for_each([&](const Box& block) { return !asked.meet(block); }, visit);
+  std::sort(sides.begin(), sides.end(), [](const NearSide& a, const NearSide& b) { return a.number < b.number; });
 }
 
 /// 64 cells of a row, from column 64 w on: which are blocked. What lies outside is.

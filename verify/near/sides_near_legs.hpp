@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which obstacles come into question for the legs of a path, for its verification: own code, nothing from spatial/ and
-// nothing of what planners ask. The path is cut into boxes. Among walls and polygons a coarse grid over the boxes is
-// marked where they lie, one pass over all obstacles drops those that meet no mark, and what is left is filed in the
-// marked cells: O(obstacles) once, then what lies near a leg. On a map there is nothing to file: the sides of blocked
-// cells are read from the bits around a box, 64 columns at a time, so a map is never looked at but near the path.
+// nothing of what planners ask. The path is cut into boxes. Among walls and polygons one pass over all obstacles drops
+// those that meet none, by a tree of these boxes, and what is left is filed in a tree of its own: O(obstacles log legs)
+// once, then what lies near a leg. On a map there is nothing to file: the sides of blocked cells are read from the bits
+// around a box, 64 columns at a time, so a map is never looked at but near the path.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/raw_vector.hpp"
 #include "core/base/types.hpp"
 #include "core/run/execution.hpp"
 #include "scenes/scene/scene.hpp"
@@ -40,27 +41,11 @@ class PathSurroundings {
 
   /// To be called before gather(): with all boxes that it will be asked for, in any number of calls.
   void file(std::span<const Box> boxes, const Execution& execution);
-  /// All sides that meet one of the boxes, and perhaps some others.
+  /// All sides whose boxes meet one of these, by number; on a map perhaps some others.
   void gather(std::span<const Box> boxes, std::vector<NearSide>& sides, const Execution& execution) const;
   std::string name(std::uint64_t number) const;
 
  private:
-  struct Range {  // of the grid's cells, both ends included; empty where first_x > last_x
-    std::uint32_t first_x, first_y, last_x, last_y;
-    bool overlaps(const Range& o) const {
-      return first_x <= o.last_x && o.first_x <= last_x && first_y <= o.last_y && o.first_y <= last_y;
-    }
-    friend auto operator<=>(const Range&, const Range&) = default;
-    std::uint64_t count() const { return std::uint64_t{last_x - first_x + 1} * (last_y - first_y + 1); }
-  };
-  void lay_grid(std::span<const Box> boxes, const Execution& execution);
-  Range range_of(const Box& box) const;
-  bool is_marked(const Range& range) const;
-  template <class Visit>
-  void for_each_cell(const Range& range, const Visit& visit) const;
-  std::optional<std::vector<std::size_t>> may_be_marked(std::span<const Box> boxes, const Execution& execution) const;
-  void sift(const std::optional<std::vector<std::size_t>>& numbers, const Execution& execution);
-  void file_in_cells(const Execution& execution);
   void gather_from_map(const Box& box, std::vector<NearSide>& sides, const Execution& execution) const;
   void gather_from_word(std::int64_t y, std::int64_t w, std::uint64_t wanted, std::vector<NearSide>& sides,
                         const Execution& execution) const;
@@ -71,15 +56,8 @@ class PathSurroundings {
   const Obstacles& obstacles_;
   const ObstacleIndex* index_;
   ObstacleExtent extent_;
-  Box grid_;  // of the boxes
-  double side_ = 1.0;
-  std::uint32_t columns_ = 0;
-  std::uint32_t rows_ = 0;
-  std::vector<bool> marked_;
-  std::vector<NearSide> near_;
-  std::vector<NearSide> long_;          // across many cells: looked at each time
-  std::vector<std::uint32_t> begin_;    // by cell, of members_
-  std::vector<std::uint32_t> members_;  // of near_
+  RawVector<std::size_t> near_;          // numbers of the obstacles that meet one of the filed boxes; without an index
+  std::optional<BoxBlocks> near_sides_;  // of near_
 };
 
 }  // namespace warren
