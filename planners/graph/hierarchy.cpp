@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
 #include <string_view>
 #include <tuple>
 #include <utility>
@@ -245,68 +246,37 @@ struct Shortcut {
 
 constexpr std::size_t shrinking_grain = std::size_t{1} << 12;
 
-/// The arcs of each row that shortcuts bring, by their ends; each shortcut twice.
-struct NewArcs {
-  RawVector<Shortcut> arc;  // from, to: of the graph before
-  ItemsByKey by_row;
-};
-
-NewArcs both_ways(std::size_t vertex_count, const std::vector<RawVector<Shortcut>>& shortcuts,
-                  const Execution& execution) {
-  std::vector<std::size_t> begin{0};
-  for (const auto& part : shortcuts) begin.push_back(begin.back() + 2 * part.size());
-  NewArcs all;
-  execution.reserve(begin.back() * sizeof(Shortcut));
-  all.arc.resize(begin.back());
-  for_chunks(shortcuts.size(), 1, execution, [&](Range r) {
-    std::size_t next = begin[r.first];
-    for (const Shortcut& s : shortcuts[r.first]) {
-      all.arc[next++] = s;
-      all.arc[next++] = {s.to, s.from, s.middle, s.length};
-    }
-  });
-  all.by_row = counting_sort(all.arc.size(), vertex_count, execution, [&](std::size_t i) { return all.arc[i].from; });
-  return all;
-}
-
 /// Writes the rows of one thread's vertices.
 class RowMaker {
  public:
-  RowMaker(const ShrinkingGraph& before, std::span<const std::uint8_t> taken, const NewArcs& added)
-      : before_(before), taken_(taken), added_(added) {}
+  /// added: from, to: of the graph before; each shortcut both ways. by_row: by `from`.
+  RowMaker(const ShrinkingGraph& before, std::span<const std::uint8_t> taken, std::span<const Shortcut> added,
+           const ItemsByKey& by_row)
+      : before_(before), taken_(taken), added_(added), by_row_(by_row) {}
 
-  /// Arcs to vertices of the graph before, ascending, one a vertex.
+  /// Arcs to vertices of the graph before, ascending, one a vertex; of two that are as long the older one.
   std::span<const HierarchyArc> row(VertexId v) {
+    old_.clear();
     fresh_.clear();
-    for (const std::uint32_t i : added_.by_row.of(v)) {
-      const Shortcut& s = added_.arc[i];
-      fresh_.push_back({s.to, s.middle, s.length});
-    }
-    std::sort(fresh_.begin(), fresh_.end(), [](const HierarchyArc& a, const HierarchyArc& b) {
-      return std::tie(a.to, a.length, a.middle) < std::tie(b.to, b.length, b.middle);
-    });
     row_.clear();
-    auto next = fresh_.cbegin();
-    for (const HierarchyArc& old : before_.row(v)) {
-      if (taken_[old.to] != 0) continue;
-      while (next != fresh_.cend() && next->to < old.to) add(*next++);
-      add(old);
-    }
-    while (next != fresh_.cend()) add(*next++);
+    std::ranges::copy_if(before_.row(v), std::back_inserter(old_),
+                         [&](const HierarchyArc& arc) { return taken_[arc.to] == 0; });
+    for (const std::uint32_t i : by_row_.of(v)) fresh_.push_back({added_[i].to, added_[i].middle, added_[i].length});
+    std::ranges::sort(fresh_, {}, [](const HierarchyArc& a) { return std::tuple(a.to, a.length, a.middle); });
+    std::ranges::merge(old_, fresh_, std::back_inserter(row_), {}, by_length, by_length);
+    row_.erase(std::unique(row_.begin(), row_.end(), [](const auto& a, const auto& b) { return a.to == b.to; }),
+               row_.end());
     return row_;
   }
 
  private:
-  void add(const HierarchyArc& arc) {
-    if (row_.empty() || row_.back().to != arc.to) {
-      row_.push_back(arc);
-    } else if (arc.length < row_.back().length) {
-      row_.back() = arc;
-    }
-  }
+  static std::pair<VertexId, double> by_length(const HierarchyArc& arc) { return {arc.to, arc.length}; }
+
   const ShrinkingGraph& before_;
   std::span<const std::uint8_t> taken_;
-  const NewArcs& added_;
+  std::span<const Shortcut> added_;
+  const ItemsByKey& by_row_;
+  std::vector<HierarchyArc> old_;
   std::vector<HierarchyArc> fresh_;
   std::vector<HierarchyArc> row_;
 };
@@ -339,23 +309,23 @@ ShrinkingGraph shrinking_graph(const Graph& graph, const Execution& execution) {
   return whole;
 }
 
-/// Without the vertices v that have taken[v] != 0, and with the shortcuts, part by part; of two arcs between the same
+/// Without the vertices v that have taken[v] != 0, and with the shortcuts, each both ways; of two arcs between the same
 /// vertices the shorter one stays. Nothing of `before` is left. Throws Stopped, and InputError for 2^32 arcs or more.
-ShrinkingGraph shrunk(ShrinkingGraph before, std::span<const std::uint8_t> taken,
-                      const std::vector<RawVector<Shortcut>>& shortcuts, const Execution& execution) {
+ShrinkingGraph shrunk(ShrinkingGraph before, std::span<const std::uint8_t> taken, std::span<const Shortcut> added,
+                      const Execution& execution) {
   const std::size_t n = before.size();
-  const NewArcs added = both_ways(n, shortcuts, execution);
+  const ItemsByKey by_row = counting_sort(added.size(), n, execution, [&](std::size_t i) { return added[i].from; });
   execution.reserve(n * 3 * sizeof(VertexId));
   RawVector<VertexId> number(n);  // in the graph after
   for_each_index(n, shrinking_grain, execution, [&](std::size_t v) { number[v] = taken[v] == 0 ? 1 : 0; });
-  execution.reserve((before.arc.size() + added.arc.size()) * 2 * sizeof(HierarchyArc));
+  execution.reserve((before.arc.size() + added.size()) * 2 * sizeof(HierarchyArc));
   ShrinkingGraph after;
   after.vertex.resize(exclusive_scan(number, execution));
   after.first.resize(after.size() + 1);
   after.first.back() = 0;
   std::vector<RawVector<HierarchyArc>> rows(chunk_count(n, shrinking_grain));
   for_chunks(n, shrinking_grain, execution, [&](Range r) {
-    RowMaker maker(before, taken, added);
+    RowMaker maker(before, taken, added, by_row);
     RawVector<HierarchyArc>& arcs = rows[r.first / shrinking_grain];
     for (std::size_t i = r.first; i < r.last; ++i) {
       const auto v = static_cast<VertexId>(i);
@@ -385,7 +355,7 @@ class WitnessSearch {
   WitnessSearch(const ShrinkingGraph& graph, std::span<const std::uint8_t> taken, const Execution& execution)
       : graph_(graph), taken_(taken), execution_(execution) {}
 
-  /// Appends the shortcuts that v needs. Throws Stopped.
+  /// Appends the shortcuts that v needs, each both ways. Throws Stopped.
   void append_shortcuts(VertexId v, RawVector<Shortcut>& shortcuts) {
     const auto row = graph_.row(v);
     for (std::size_t i = 0; i + 1 < row.size(); ++i) {
@@ -397,7 +367,9 @@ class WitnessSearch {
       search(row[i].to, longest);
       for (const HierarchyArc& arc : others) {
         const double length = slot_of(arc.to).wanted;
-        if (length != unwanted) push_asked(shortcuts, {row[i].to, arc.to, graph_.vertex[v], length}, execution_);
+        if (length == unwanted) continue;
+        push_asked(shortcuts, {row[i].to, arc.to, graph_.vertex[v], length}, execution_);
+        push_asked(shortcuts, {arc.to, row[i].to, graph_.vertex[v], length}, execution_);
       }
     }
   }
@@ -588,7 +560,9 @@ void ContractionRounds::next_round() {
       for (const HierarchyArc& arc : row) level_[arc.to] = std::max(level_[arc.to], next);
     });
   }
-  left_ = shrunk(std::move(left_), taken, shortcuts, execution_);
+  const RawVector<Shortcut> added = joined_parts(shortcuts, execution_);
+  shortcuts.clear();
+  left_ = shrunk(std::move(left_), taken, added, execution_);
   for (TakenOut& part : gone) {
     if (!part.vertex.empty()) gone_.push_back(std::move(part));
   }
