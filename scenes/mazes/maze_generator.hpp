@@ -153,7 +153,7 @@ std::optional<std::size_t> first_wall_off_grid(const WallSet& walls, MazeHint hi
 /// are cut. Throws InputError("maze", ...) if a wall is off the grid or outside the box.
 MazeCells cells_of_walls(const WallSet& walls, MazeHint hint, const Execution& execution);
 
-/// Can one walk from cell a to cell b (zero-based {col, row})? Depth-first flood, O(cells) time, 1 byte a cell: the
+/// Can one walk from cell a to cell b (zero-based {col, row})? Breadth-first flood, O(cells) time, 1 byte a cell: the
 /// proof behind Outcome::infeasible. Throws InputError for cells outside the maze.
 bool flood_connects(const MazeCells& cells, std::pair<std::uint32_t, std::uint32_t> a,
                     std::pair<std::uint32_t, std::uint32_t> b, const Execution& execution);

@@ -10,13 +10,13 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <span>
 #include <type_traits>
 
 #include "core/base/error.hpp"
+#include "parallel/asked_memory.hpp"
 #include "parallel/chunks.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 
@@ -454,27 +454,6 @@ void open_all(MazeCells& cells, const Execution& execution) {
   });
 }
 
-constexpr std::uint8_t to_try = 15;  ///< bit d: direction d is open and not yet tried
-constexpr std::uint8_t reached = 0x40;
-constexpr unsigned way_back_shift = 4;  ///< two bits hold the direction that a cell was reached from
-
-/// A byte a cell with its open directions; gap bytes have none.
-RawVector<std::uint8_t> open_directions(const MazeCells& cells, const Execution& execution) {
-  const std::span<const std::uint8_t> bytes = cells.bytes();
-  execution.reserve(bytes.size());
-  RawVector<std::uint8_t> open(bytes.size());
-  const std::size_t stride = cells.stride();
-  for_chunks(bytes.size(), flood_grain, execution, [&](Range r) {
-    for (std::size_t i = r.first; i < r.last; ++i) {
-      const unsigned left = i > stride ? bytes[i - stride] & 1U : 1U;
-      const unsigned below = i > 0 ? bytes[i - 1] & 2U : 2U;
-      const unsigned walls = (bytes[i] & 3U) | left << 2U | below << 2U;
-      open[i] = static_cast<std::uint8_t>(~walls & to_try);
-    }
-  });
-  return open;
-}
-
 }  // namespace
 
 std::uint64_t interior_walls(const MazeCells& cells, const Execution& execution) {
@@ -583,30 +562,30 @@ bool flood_connects(const MazeCells& cells, std::pair<std::uint32_t, std::uint32
                        fmt::format("column {}, row {}", col, row));
     }
   }
-  RawVector<std::uint8_t> at = open_directions(cells, execution);
-  const auto stride = static_cast<std::ptrdiff_t>(cells.stride());
-  const std::ptrdiff_t offsets[4] = {stride, 1, -stride, -1};
-  const std::size_t start = cells.index(a.first, a.second);
+  const std::span<const std::uint8_t> walls = cells.bytes();
+  const std::size_t stride = cells.stride();
   const std::size_t goal = cells.index(b.first, b.second);
-  std::uint64_t steps = 0;
-  at[start] |= reached;
-  for (std::size_t i = start; i != goal;) {
-    execution.poll(++steps);
-    const unsigned untried = at[i] & to_try;
-    if (untried == 0) {
-      if (i == start) return false;
-      i += static_cast<std::size_t>(offsets[at[i] >> way_back_shift & 3U]);
-      continue;
+  execution.reserve(walls.size());
+  RawVector<std::uint8_t> reached(walls.size(), 0);
+  std::vector<std::size_t> frontier;
+  std::vector<std::size_t> next;
+  const auto reach = [&](std::size_t to, unsigned wall) {
+    if (wall != 0 || std::exchange(reached[to], std::uint8_t{1}) != 0) return;
+    push_asked(next, to, execution);
+  };
+  reach(cells.index(a.first, a.second), 0);
+  for (std::uint64_t steps = 0; !next.empty() && reached[goal] == 0;) {
+    frontier.swap(next);
+    next.clear();
+    for (const std::size_t i : frontier) {  // which is no first byte, and gap bytes have all walls
+      execution.poll(++steps);
+      reach(i + stride, walls[i] & MazeCells::right_wall);
+      reach(i + 1, walls[i] & MazeCells::upper_wall);
+      if (i > stride) reach(i - stride, walls[i - stride] & MazeCells::right_wall);
+      reach(i - 1, walls[i - 1] & MazeCells::upper_wall);
     }
-    const auto d = static_cast<unsigned>(std::countr_zero(untried));
-    at[i] &= static_cast<std::uint8_t>(~(1U << d));
-    const std::size_t to = i + static_cast<std::size_t>(offsets[d]);
-    if ((at[to] & reached) != 0) continue;
-    const unsigned back = d ^ 2U;
-    at[to] = static_cast<std::uint8_t>((at[to] & ~(1U << back)) | reached | back << way_back_shift);
-    i = to;
   }
-  return true;
+  return reached[goal] != 0;
 }
 
 }  // namespace warren
