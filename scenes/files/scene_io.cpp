@@ -383,7 +383,6 @@ const std::array<SceneReader::Item, SceneReader::item_count> SceneReader::items 
 }};
 
 constexpr std::size_t line_grain = 8192;
-constexpr std::size_t chunks_a_batch = 64;
 
 void append_number(std::string& text, double x) {
   constexpr double largest_quick = 1e9;
@@ -495,32 +494,19 @@ void append_wall(std::string& text, const Segment& s) {
   text.push_back('\n');
 }
 
-/// append(text, item) writes one of `count` items' lines; a batch of chunks at a time, in their order.
-template <class Append>
-void write_items(std::size_t count, std::size_t chunk, const SceneTextSink& write, const Execution& execution,
-                 const Append& append) {
-  std::vector<std::string> parts(chunks_a_batch);
-  for (std::size_t first = 0; first < count; first += chunks_a_batch * chunk) {
-    const std::size_t some = std::min(chunks_a_batch * chunk, count - first);
-    for_chunks(some, chunk, execution, [&](Range r) {
-      std::string& text = parts[r.first / chunk];
-      text.clear();
-      for (std::size_t i = r.first; i < r.last; ++i) append(text, first + i);
-    });
-    for (std::size_t c = 0; c < chunk_count(some, chunk); ++c) write(parts[c]);
-  }
-}
-
 /// Shortest decimal numbers that read back the same, half-integers (mazes) by integer digits. Walls are formatted in
-/// parallel, a batch of chunks at a time, and written in their order. `path`: of the file, beside which masks are.
-void write_text(const Scene& scene, const std::string& path, const SceneTextSink& write, const Execution& execution) {
-  write(head_of(scene, path));
-  write_items(scene.polygons.size(), line_grain / 16, write, execution,
-              [&](std::string& text, std::size_t i) { append_polygon(text, scene.polygons[i].corners, execution); });
-  write(solids_of(scene));
+/// parallel and written in their order. `path`: of the file, beside which masks are. Sink: as write_in_pieces has it.
+template <class Sink>
+void write_text(const Scene& scene, const std::string& path, Sink& to, const Execution& execution) {
+  to.write(head_of(scene, path));
+  write_in_pieces(to, scene.polygons.size(), line_grain / 16, execution, [&](Range r, std::string& text) {
+    for (std::size_t i = r.first; i < r.last; ++i) append_polygon(text, scene.polygons[i].corners, execution);
+  });
+  to.write(solids_of(scene));
   scene.walls.visit([&](auto walls) {
-    write_items(walls.size(), line_grain, write, execution,
-                [&](std::string& text, std::size_t i) { append_wall(text, walls[i].segment()); });
+    write_in_pieces(to, walls.size(), line_grain, execution, [&](Range r, std::string& text) {
+      for (std::size_t i = r.first; i < r.last; ++i) append_wall(text, walls[i].segment());
+    });
   });
 }
 
@@ -529,14 +515,16 @@ void write_text(const Scene& scene, const std::string& path, const SceneTextSink
 Scene read_scene_text(const InputFile& file, const Execution& execution) { return SceneReader(file, execution).read(); }
 
 void write_scene_text(const Scene& scene, const SceneTextSink& write, const Execution& execution) {
-  write_text(scene, "-", write, execution);
+  struct {
+    const SceneTextSink& write;
+  } to{write};
+  write_text(scene, "-", to, execution);
 }
 
 void write_scene_text(const Scene& scene, const std::string& path, const Execution& execution) {
   if (execution.progress != nullptr) execution.progress->begin("write", scene.polygons.size() + scene.walls.size());
   OutputFile file(path, execution);
-  write_text(
-      scene, path, [&](std::string_view text) { file.write(text); }, execution);
+  write_text(scene, path, file, execution);
   file.commit();
 }
 

@@ -6,10 +6,14 @@
 // a slow reader polls the deadline.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <exception>
 #include <string>
 #include <string_view>
 
 #include "core/run/execution.hpp"
+#include "parallel/chunks.hpp"
 
 namespace warren {
 
@@ -61,6 +65,33 @@ class FirstOfTwoFiles : NotCopied {
 
 /// Writes a whole file at once.
 void write_file(const std::string& path, std::string_view bytes, const Execution& execution);
+
+/// Long texts, made piece by piece on all cores and written in their order: a file of any size goes through 64 pieces
+/// of memory, and its bytes are the same for any number of threads. Calls make(Range, std::string&), which appends, for
+/// each piece of `grain` indices of 0 .. n - 1, and sink.write() with what it made, one after the other. Throws
+/// Stopped, and as make and the sink do.
+template <class Sink, class Make>
+void write_in_pieces(Sink& sink, std::size_t n, std::size_t grain, const Execution& execution, const Make& make) {
+  constexpr std::size_t pieces_at_once = 64;
+  std::array<std::string, pieces_at_once> texts;
+  std::array<std::exception_ptr, pieces_at_once> errors;  // the first by number, not by time
+  for (std::size_t begin = 0; begin < n; begin += pieces_at_once * grain) {
+    const std::size_t count = std::min(pieces_at_once * grain, n - begin);
+    for_chunks(count, grain, execution, [&](Range range) {
+      std::string& text = texts[range.first / grain];
+      text.clear();
+      try {
+        make(Range{begin + range.first, begin + range.last}, text);
+      } catch (...) {
+        errors[range.first / grain] = std::current_exception();
+      }
+    });
+    for (std::size_t piece = 0; piece < chunk_count(count, grain); ++piece) {
+      if (errors[piece]) std::rethrow_exception(errors[piece]);
+      sink.write(texts[piece]);
+    }
+  }
+}
 
 /// Does an OutputFile of that name write at once what can't be taken back? "-", the names of open files, and whatever
 /// is there and no regular file.
