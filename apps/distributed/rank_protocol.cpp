@@ -3,9 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <optional>
-#include <string>
 #include <utility>
 
 #include "core/base/error.hpp"

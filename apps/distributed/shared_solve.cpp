@@ -11,7 +11,6 @@
 #include <system_error>
 #include <utility>
 
-#include "apps/distributed/rank_protocol.hpp"
 #include "core/base/error.hpp"
 #include "scenes/files/maze_file_io.hpp"
 #include "scenes/files/npy_io.hpp"

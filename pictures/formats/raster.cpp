@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pictures/formats/raster.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>

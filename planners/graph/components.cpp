@@ -2,7 +2,6 @@
 #include "planners/graph/components.hpp"
 
 #include "core/search/union_find.hpp"
-#include "parallel/chunks.hpp"
 
 namespace warren {
 namespace {

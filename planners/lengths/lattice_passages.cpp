@@ -2,9 +2,7 @@
 #include "planners/lengths/lattice_passages.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <string>
-#include <utility>
 
 #include "core/base/error.hpp"
 #include "parallel/chunks.hpp"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "planners/mazes/overlay.hpp"
 
-#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <utility>

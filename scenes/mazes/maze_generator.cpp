@@ -11,16 +11,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
 #include <tuple>
-#include <utility>
-#include <vector>
 
 #include "core/base/error.hpp"
-#include "core/base/raw_vector.hpp"
 #include "core/base/rng.hpp"
 #include "core/search/union_find.hpp"
 #include "parallel/asked_memory.hpp"

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <istream>
-#include <sstream>
 
 #include "core/base/error.hpp"
 #include "core/base/types.hpp"

@@ -8,7 +8,6 @@
 #include <functional>
 #include <optional>
 #include <span>
-#include <string_view>
 
 #include "core/base/types.hpp"
 #include "core/run/execution.hpp"

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solve/kinds/question_of_pose.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
-#include <cmath>
 #include <limits>
 #include <numbers>
 

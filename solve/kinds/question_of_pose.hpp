@@ -5,8 +5,6 @@
 // between at which it does; roadmaps take the one with the most room.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <functional>
 #include <optional>
@@ -14,9 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/base/error.hpp"
 #include "core/base/solution.hpp"
-#include "core/base/types.hpp"
 #include "core/plane/se2.hpp"
 #include "solve/answer/answer.hpp"
 #include "solve/answer/read_answer_io.hpp"

@@ -26,8 +26,6 @@
 //   take_prices(cost)                      the same of a roadmap that is asked, where shortening needs it
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <limits>

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solve/kinds/solve_to_goal.hpp"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 
 #include "core/base/error.hpp"

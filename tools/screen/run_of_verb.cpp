@@ -10,7 +10,6 @@
 #include <limits>
 
 #include "core/base/printable.hpp"
-#include "scenes/text/human_units.hpp"
 #include "scenes/text/output_file_io.hpp"
 #include "solve/question/limits.hpp"
 #include "tools/screen/exit_code.hpp"
