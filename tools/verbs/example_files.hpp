@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The files of examples/worlds, whose bytes the build puts into the program.
+// Files whose bytes the build puts into the program: those of examples/worlds, and the scripts of tools/completion.
 #pragma once
 
 #include <span>
@@ -13,6 +13,8 @@ namespace warren::tools {
 
 /// By name; README.md, whose table says what to see, is one of them.
 std::span<const EmbeddedFile> example_files();
+/// By the shell's name.
+std::span<const EmbeddedFile> completion_scripts();
 
 /// A row of that table.
 struct Example {
