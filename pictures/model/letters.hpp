@@ -3,13 +3,18 @@
 // mark.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/base/embedded_file.hpp"
 #include "core/plane/polygon.hpp"
 
 namespace warren {
+
+/// The files of pictures/letters, which the build embeds: their licence, then the outlines.
+std::span<const EmbeddedFile> letter_files();
 
 /// Advance of a line of UTF-8 in letters of that size.
 double text_width(std::string_view text, double size);
