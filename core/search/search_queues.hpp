@@ -173,10 +173,10 @@ class LinearScan : public detail::QueueArray {
   }
 };
 
-/// Keys of [i·width, (i + 1)·width) lie in bucket i modulo 1024; the bucket that is being emptied is a small binary
-/// heap, all others are unordered, so the order is exact for any width. Keys a whole turn ahead wait in a heap of their
-/// own; a key below the current bucket (rounding, or an inconsistent heuristic) joins the current one. Fastest with a
-/// width of about the median edge: bench/heap_bench.cpp.
+/// Keys of [i·width, (i + 1)·width) lie in bucket i modulo 1024; the bucket that is being emptied is sorted, what joins
+/// it meanwhile lies in a small binary heap, all others are unordered, so the order is exact for any width. Keys a
+/// whole turn ahead wait in a heap of their own; a key below the current bucket (rounding, or an inconsistent
+/// heuristic) joins the current one. Fastest with a width of about the median edge: bench/heap_bench.cpp.
 class BucketQueue {
  public:
   /// width: units of the keys, > 0.
@@ -187,6 +187,7 @@ class BucketQueue {
   void clear() {
     for (auto& bucket : buckets_) bucket.clear();
     is_used_.fill(0);
+    late_.clear();
     far_.clear();
     size_ = 0;
   }
@@ -195,8 +196,7 @@ class BucketQueue {
     const std::uint64_t number = number_of(key);
     if (size_++ == 0) current_ = number;
     if (number <= current_) {
-      add(current_, {key, v});
-      std::push_heap(bucket(current_).begin(), bucket(current_).end(), later);
+      late_.push(v, key);
     } else if (number - current_ < count) {
       add(number, {key, v});
     } else {
@@ -205,13 +205,13 @@ class BucketQueue {
   }
 
   QueueEntry pop() {
-    if (bucket(current_).empty()) advance();
+    if (late_.empty() && bucket(current_).empty()) advance();
     auto& entries = bucket(current_);
-    std::pop_heap(entries.begin(), entries.end(), later);
+    --size_;
+    if (!late_.empty() && (entries.empty() || late_.top() < entries.back())) return late_.pop();
     const QueueEntry top = entries.back();
     entries.pop_back();
     if (entries.empty()) is_used_[current_ % count / 64] &= ~(std::uint64_t{1} << current_ % 64);
-    --size_;
     return top;
   }
 
@@ -236,7 +236,7 @@ class BucketQueue {
       const QueueEntry e = far_.pop();
       add(number_of(e.key), e);
     }
-    std::make_heap(bucket(current_).begin(), bucket(current_).end(), later);
+    std::sort(bucket(current_).begin(), bucket(current_).end(), later);
   }
   /// The first number after current_ whose bucket has entries; the largest number if there is none.
   std::uint64_t next_used() const {
@@ -252,6 +252,7 @@ class BucketQueue {
   double per_width_;
   std::array<std::vector<QueueEntry>, count> buckets_;
   std::array<std::uint64_t, count / 64> is_used_{};  // one bit a bucket
+  LazyHeap late_;                                    // joined the current bucket, which is sorted
   LazyHeap far_;
   std::uint64_t current_ = 0;
   std::size_t size_ = 0;

@@ -2,6 +2,7 @@
 #include "planners/grid/path_classes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <map>
@@ -17,6 +18,8 @@ namespace warren {
 namespace {
 
 constexpr std::uint32_t none = 0;  // the first of the states is no cell's
+constexpr unsigned left_step = 3;  // of cell_steps
+constexpr unsigned right_step = 4;
 
 /// All cells that hang together with one, by sides or corners, taken out of `left`; whether they reach the border.
 class Flood {
@@ -197,12 +200,12 @@ class ClassSearch {
     if (!least) return found;
     limit_ = static_cast<double>(*least) * choice_.stretch;
     const VertexId end = weights_.cells().number(goal);
-    reach(begin, 0, none, 0, *least);
+    reach({0, *least, begin, none, none, 0, 0});
     for (std::uint64_t turns = 1; !open_.empty(); ++turns) {
       if (turns % expansions_per_poll == 0) execution_.check();
-      const auto [key, at] = open_.pop();
+      const std::uint32_t at = open_.pop().vertex;  // for the least it cost; then, for more, it is settled
       State& state = state_at(at);
-      if (state.is_settled || key != key_of(state) || settled_[state.cell] >= choice_.count) continue;
+      if (state.is_settled || settled_[state.cell] >= choice_.count) continue;
       ++settled_[state.cell];
       state.is_settled = true;
       if (state.cell == end) {
@@ -217,6 +220,7 @@ class ClassSearch {
  private:
   struct State {
     std::uint64_t cost;
+    std::uint64_t onward;  // from the cell to the goal
     VertexId cell;
     std::uint32_t before;
     std::uint32_t next;  // of the same cell
@@ -226,38 +230,43 @@ class ClassSearch {
   static constexpr std::uint32_t piece = 1 << 14;  // states, which stay where they are
   State& state_at(std::uint32_t at) { return pieces_[at / piece][at % piece]; }
 
-  double key_of(const State& state) { return static_cast<double>(state.cost + *field_.cost(state.cell, execution_)); }
-  void reach(VertexId cell, std::uint32_t word, std::uint32_t before, std::uint64_t cost, std::uint64_t rest) {
-    std::uint32_t at = first_[cell];
-    while (at != none && state_at(at).word != word) at = state_at(at).next;
-    if (at == none) {
-      at = count_++;
-      if (at / piece == pieces_.size()) {
-        execution_.reserve(sizeof(State) * piece);
-        pieces_.push_back(std::make_unique_for_overwrite<State[]>(piece));
-      }
-      state_at(at) = {cost, cell, before, first_[cell], word, 0};
-      first_[cell] = at;
-    } else {
-      State& known = state_at(at);
-      if (known.cost <= cost) return;
-      known.cost = cost;
-      known.before = before;
+  void reach(State state) {
+    if (count_ / piece == pieces_.size()) {
+      execution_.reserve(sizeof(State) * piece);
+      pieces_.push_back(std::make_unique_for_overwrite<State[]>(piece));
     }
-    open_.push(at, static_cast<double>(cost + rest));
+    state.next = std::exchange(first_[state.cell], count_);
+    open_.push(count_, static_cast<double>(state.cost + state.onward));
+    state_at(count_++) = state;
   }
   void expand(std::uint32_t at) {
     const State from = state_at(at);
     const Cell here = weights_.cells().cell(from.cell);
+    const auto followed = [&](unsigned step) {
+      return words_.followed(from.word, cuts_.letter(here, step), execution_);
+    };
+    // A diagonal step crosses what the one to its side does.
+    const std::array<std::uint32_t, 3> words{followed(left_step), from.word, followed(right_step)};
     for (unsigned rest = weights_.allowed(from.cell); rest != 0; rest &= rest - 1) {
       const auto step = as_whole<unsigned>(std::countr_zero(rest));
       const VertexId to = from.cell + weights_.offset(step);
       if (settled_[to] >= choice_.count) continue;
-      const auto onward = field_.cost(to, execution_);
-      if (!onward) continue;
+      const std::uint32_t word = words[as_whole<unsigned>(1 + cell_steps[step][0])];
+      const std::uint32_t first = first_[to];
+      std::uint32_t known = first;
+      while (known != none && state_at(known).word != word) known = state_at(known).next;
+      // A weight may be dear to find: not where the length alone is too much.
+      if (known != none && state_at(known).cost <= from.cost + weights_.length(step)) continue;
+      const std::uint64_t onward = first != none ? state_at(first).onward : *field_.cost(to, execution_);
       const std::uint64_t cost = from.cost + weights_.weight(from.cell, step);
-      if (static_cast<double>(cost + *onward) > limit_) continue;
-      reach(to, words_.followed(from.word, cuts_.letter(here, step), execution_), at, cost, *onward);
+      if (static_cast<double>(cost + onward) > limit_) continue;
+      if (known == none) {
+        reach({cost, onward, to, at, none, word, 0});
+      } else if (cost < state_at(known).cost) {
+        state_at(known).cost = cost;
+        state_at(known).before = at;
+        open_.push(known, static_cast<double>(cost + onward));
+      }
     }
   }
   std::vector<Cell> cells_to(std::uint32_t at) {

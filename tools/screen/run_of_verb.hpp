@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How a verb runs: threads, budget, memory, progress, trace. The options that every working verb shares, and the
 // Execution that they make.
+//
+// The bar draws how far the work is on standard error: stage, per cent, rate, time left of it and of the whole. Nothing
+// is drawn for work that ends within a second; at most ten times a second after that; the line is cleared at the end.
+// Plain mode writes a line of its own every two seconds and never erases.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +19,7 @@
 #include "core/run/execution.hpp"
 #include "core/run/trace.hpp"
 #include "scenes/text/human_units.hpp"
-#include "tools/screen/progress_bar.hpp"
+#include "tools/screen/exit_code.hpp"
 #include "tools/words/command.hpp"
 
 namespace warren::tools {
@@ -30,11 +34,60 @@ unsigned threads_value(std::string_view option, std::string_view text);
 /// with each_run_and_threads --threads is dealt out, too.
 enum class RunScope : std::uint8_t { whole_command, each_run, each_run_and_threads };
 
+/// A stage that a run will come to, and its share of the run's time, in any unit.
+struct ExpectedStage {
+  std::string_view stage;
+  double share;
+};
+using ExpectedStages = std::span<const ExpectedStage>;
+
+/// What is seen of a run at a moment.
+struct RunMoment {
+  std::string_view stage;
+  std::uint64_t done = 0;
+  std::uint64_t total = 0;  ///< 0: not known
+  double seconds = 0.0;     ///< since the run began
+};
+
+/// How long a whole run will still take, where its stages and their shares of the time are known: the time that has
+/// passed tells how fast this machine is. Nothing is said where a stage comes that was not expected, where one takes
+/// half as long again as its share, and before a twentieth is done. Asked in the order of time. What comes before the
+/// first of the stages is not counted.
+class WholeRun {
+ public:
+  /// All stages to come, in their order; they outlive it. None: nobody knows.
+  explicit WholeRun(ExpectedStages stages) : stages_(stages) {}
+
+  /// The part of the run that is done, never less than it was before; none: nobody knows.
+  std::optional<double> part_done(const RunMoment& moment);
+  /// Of the wall clock.
+  std::optional<double> seconds_left(const RunMoment& moment);
+
+ private:
+  bool enter(const RunMoment& moment);
+
+  ExpectedStages stages_;
+  bool has_begun_ = false;
+  bool is_lost_ = false;  // a stage came that was not expected
+  double began_s_ = 0.0;  // the first of the stages, or what is seen of the run
+  std::size_t stage_ = 0;
+  double stage_began_s_ = 0.0;
+  double before_ = 0.0;  // shares of the stages that are over
+  double part_ = 0.0;
+};
+
+/// What erases so many columns that stand on a screen `width` columns wide: more rows than one where it has become
+/// narrower meanwhile.
+std::string erasing(std::size_t columns, std::size_t width);
+
+class ProgressBar;
+
 /// One run of a verb: the clock starts with it. Not movable: Execution points into it.
 class Run : NotCopied {
  public:
   /// stages: all to come, where they are known, so that the bar tells how long the whole run will take.
   explicit Run(const Arguments& arguments, RunScope scope = RunScope::whole_command, ExpectedStages stages = {});
+  ~Run();
 
   const Execution& execution() const { return execution_; }
   bool quiet() const { return quiet_; }

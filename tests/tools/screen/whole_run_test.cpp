@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/screen/progress_bar.hpp"
+#include "tools/screen/run_of_verb.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include "tests/tools/grid_worlds.hpp"
 #include "tests/tools/process.hpp"
-#include "tools/screen/progress_bar.hpp"
+#include "tools/screen/run_of_verb.hpp"
 
 namespace warren::test {
 namespace {
