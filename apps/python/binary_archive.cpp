@@ -174,8 +174,8 @@ WARREN_ARCHIVED(Solid, kind, pose, half, corners, faces, name, given)
 WARREN_ARCHIVED(AttachedSolid, link, solid, may_touch)
 template <class Ar>
 void put(Ar& ar, ArmFiles& whole) {
-  auto& [urdf, srdf, group, base, tip, packages, held, allowed, attached, tool, said, read] = whole;
-  all(ar, urdf, srdf, group, base, tip, packages, held, allowed, attached, tool, said);
+  auto& [urdf, srdf, group, base, tip, packages, held, allowed, attached, tool, base_pose, said, read] = whole;
+  all(ar, urdf, srdf, group, base, tip, packages, held, allowed, attached, tool, base_pose, said);
   if constexpr (Ar::reads) read.reset();  // whoever asks again reads the files
 }
 WARREN_ARCHIVED(NamedState, names, values)

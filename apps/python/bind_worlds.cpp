@@ -180,7 +180,9 @@ void check_scene(const Scene& scene) {
   });
 }
 
-tools::Command reading() { return command_of("read_world", {tools::world_option_specs()}); }
+tools::Command reading() {
+  return command_of("read_world", {tools::world_option_specs(), std::span(&tools::moveit_robot_option, 1)});
+}
 tools::Command question_of_world() { return command_of("scene", {tools::question_option_specs()}, {"--contact"}); }
 
 /// What scene files say beside obstacles: start, goal, robot, clearance.
@@ -249,10 +251,13 @@ Scene made_of_cells(const py::array& cells, double cell, std::array<double, 2> o
   return scene;
 }
 
-Scene read_named(const std::string& source, py::dict keywords) {
+/// is_asked: in a question, whose robot the keyword is.
+Scene read_named(const std::string& source, py::dict keywords, bool is_asked = false) {
   CallLimits limits = take_limits(keywords);
   const tools::Arguments words = arguments_of(made_once<reading>(), keywords);
-  return limits.run([&](const Execution& execution) { return tools::load_world(source, words, execution); });
+  return limits.run([&](const Execution& execution) {
+    return is_asked ? tools::load_world(source, words, execution) : tools::load_world_alone(source, words, execution);
+  });
 }
 
 Scene read_text(const std::string& name, const std::string& text, const py::dict& keywords) {

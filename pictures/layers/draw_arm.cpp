@@ -155,13 +155,14 @@ class ArmPath {
     const std::vector<Eigen::Isometry3d> at = frames(q);
     std::vector<Vec3> points;
     for (const int frame : line_) {
-      points.push_back(at[static_cast<std::size_t>(frame + 1)].translation());
+      points.push_back(frame == base_frame ? base() : Vec3(at[static_cast<std::size_t>(frame + 1)].translation()));
       if (frame != kinematics_.model().tool_frame) continue;
       points.push_back(tool(q));
       if (frame != line_.back()) points.push_back(points[points.size() - 2]);
     }
     return points;
   }
+  Vec3 base() const { return kinematics_.model().base; }
   Vec3 tool(const JointState& q) const { return kinematics_.tool_pose(q).translation(); }
 
   /// Where it is when that share of the length is behind, 0 .. 1.
@@ -392,7 +393,7 @@ class ArmDrawing {
       }
       include(seen.tool(at.q), 0.0);
     }
-    include(Vec3::Zero(), radius_);
+    include(seen.base(), radius_);
     constexpr double thin = 0.012;
     if (!(radius_ > 0.0)) radius_ = thin * (high_ - low_).maxCoeff();
   }

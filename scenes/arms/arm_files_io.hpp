@@ -28,16 +28,22 @@ DhTable read_dh_table(const InputFile& file, const Execution& execution);
 /// where it is. Throws ReadError, InputError naming file and line, Stopped.
 ArmModel read_urdf(const ArmFiles& files, const Execution& execution);
 
-/// Where the frame of a link is in that of the robot's root.
+/// Where the frame of a link is in that of the world.
 struct LinkFrame {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< where `open` is empty
   std::string moves_with = {};                             ///< the last joint above it that can move; empty: none
   std::string open = {};                                   ///< a joint that moves it and that nobody holds; empty: none
 };
 
-/// By the names of links, with the root as the SRDF's virtual joint calls it, too. Joints are where `held` says, and
-/// those that mimic one where it takes them. Throws ReadError, InputError naming file and line, Stopped.
-std::map<std::string, LinkFrame> read_link_frames(const ArmFiles& files, const Execution& execution);
+struct RobotFrames {
+  std::map<std::string, LinkFrame> links;  ///< by their names; the world, too, as the SRDF's virtual joint calls it
+  std::string base_joint = {};             ///< the virtual joint, between the world and the root; empty: there is none
+  std::string base_kind = {};              ///< its type: fixed, planar, floating
+};
+
+/// The root is where `base_pose` says, joints where `held` says, and those that mimic one where it takes them. Throws
+/// ReadError, InputError naming file and line, Stopped.
+RobotFrames read_robot_frames(const ArmFiles& files, const Execution& execution);
 
 /// Triangles and their corners, each point once, in the order of their coordinates; those of no triangle are left out,
 /// but where there are no triangles at all.
@@ -63,10 +69,16 @@ std::string hull_excess(const Mesh& mesh, const Solid& hull, const Execution& ex
 /// Does it look like a scene? By keys at the begin of lines, in a file that ends in .yaml or .yml anywhere.
 bool is_moveit_scene(std::string_view name, std::string_view bytes);
 
-/// Frames that poses in MoveIt's files stand in, beside that of the robot's root.
+/// A frame that stands in the world, or where a link has it that carries what the frame is of.
+struct NamedFrame {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  std::string link = {};  ///< empty: none
+};
+
+/// Frames that poses in MoveIt's files stand in, beside that of the world.
 struct MoveItFrames {
-  std::optional<ArmFiles> robot = {};                   ///< whose links have frames; none: these are refused
-  std::map<std::string, Eigen::Isometry3d> named = {};  ///< that a scene names, in the root's: for its request, too
+  std::optional<ArmFiles> robot = {};            ///< whose links have frames; none: these are refused
+  std::map<std::string, NamedFrame> named = {};  ///< that a scene names: for its request, too
 };
 
 /// What joints are at is held, and the start until a request says another. Frames that it names join *frames. Throws

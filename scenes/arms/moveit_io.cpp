@@ -8,9 +8,10 @@
 // request: group, start, goals by joints or one by a pose. Its workspace and its planner are left out, constraints on
 // the way are refused. Tolerances are left out: a goal is met as it stands.
 //
-// Poses become those in the frame of the robot's root. A frame is, as in MoveIt, the first of these that has its name:
-// a link, an object that is read before or one of its subframes, a fixed frame. In a link's frame an object stands
-// where the scene's state has the link; a goal would move with it, and is refused unless the link is fixed to the root.
+// Poses become those in the frame of the world, in which the SRDF's virtual joint has the robot's root. A frame is, as
+// in MoveIt, the first of these that has its name: a link, what is carried or an object that is read before, or one of
+// its subframes, a fixed frame. In the frame of a link or of what it carries an object stands where the scene's state
+// has the link; a goal would move with it, and is refused unless the link is fixed to the root.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -39,12 +40,8 @@ struct PoseNumbers {
   std::array<double, 3> at{};
   std::array<double, 4> turn{0.0, 0.0, 0.0, 1.0};
 
-  Eigen::Isometry3d pose() const {
-    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-    pose.translation() = Vec3(at[0], at[1], at[2]);
-    pose.linear() = turn_of_quaternion(turn[0], turn[1], turn[2], turn[3]);
-    return pose;
-  }
+  std::array<double, 7> all() const { return {at[0], at[1], at[2], turn[0], turn[1], turn[2], turn[3]}; }
+  Eigen::Isometry3d pose() const { return pose_of_numbers(all()); }
   bool is_identity() const {
     return at == std::array{0.0, 0.0, 0.0} && turn[0] == 0.0 && turn[1] == 0.0 && turn[2] == 0.0;
   }
@@ -90,6 +87,7 @@ class MoveItReader {
     refuse_sizes(root, "link_scale", "scale", 1.0);
   }
   void read_request() {
+    is_request_ = true;
     const Node& root = yaml_.root();
     expect_keys(
         root, "a request of MoveIt",
@@ -233,8 +231,39 @@ class MoveItReader {
                 {"header", "joint_names", "transforms", "twist", "wrench"});
     for (const char* key : {"joint_state", "multi_dof_joint_state"}) know_frame(frame_name(at(state, key)));
     if (!joints.IsNull()) take_joints(joints);
-    for_each(at(state, "multi_dof_joint_state"), "transforms", [&](const Node& base) {
-      if (!pose(base, "translation", "rotation").is_identity()) yaml_.fail(base, "the arm's base must stand at 0 0 0");
+    take_base(at(state, "multi_dof_joint_state"));
+  }
+  bool base_is_said() const {
+    const ArmFiles* const line = robot_line();
+    return (scene_.arm && scene_.arm->base_pose) || (line != nullptr && line->base_pose);
+  }
+  /// Where the virtual joint of the SRDF has the root; at 0 0 0 it need not be named, unless the root was elsewhere.
+  void take_base(const Node& state) {
+    const Node names = items(state, "joint_names");
+    std::size_t i = 0;
+    for_each(state, "transforms", [&](const Node& transform) {
+      const PoseNumbers place = pose(transform, "translation", "rotation");
+      const Node name = i < names.size() ? names[i] : Node();
+      ++i;
+      if (place.is_identity() && !base_is_said()) return;
+      const RobotFrames* const known = robot();
+      if (known == nullptr || !name.IsScalar() || name.Scalar().empty() || name.Scalar() != known->base_joint) {
+        if (known != nullptr && place.is_identity()) return;
+        yaml_.fail(
+            transform,
+            "only the SRDF's virtual joint, by its name in `joint_names`, has the robot's root apart from 0 0 0; "
+            "name both files beside the scene: `--robot \"urdf FILE srdf FILE\"`");
+      }
+      const bool is_flat = place.at[2] == 0.0 && place.turn[0] == 0.0 && place.turn[1] == 0.0;
+      if (!place.is_identity() && known->base_kind != "floating" && !(is_flat && known->base_kind == "planar"))
+        yaml_.fail(transform, fmt::format("joint {} is {} in the SRDF, so the robot can't stand like this; make it "
+                                          "floating there",
+                                          known->base_joint, known->base_kind));
+      if (robot_line() != nullptr) robot_line()->base_pose.reset();
+      arm().base_pose = place.all();
+      robot_.reset();
+      if (const std::string frame = frame_name(state); !frame.empty() && !is_world(frame))
+        yaml_.fail(at(at(state, "header"), "frame_id"), "the robot's root is placed in the frame of the world alone");
     });
   }
   void take_all_attached(const Node& state) {
@@ -270,9 +299,9 @@ class MoveItReader {
     each("meshes", "mesh_poses", [&](const Node& n, const PoseNumbers& p) { return mesh(n, p); });
   }
 
-  /// Of the root's frame.
+  /// Of the world's frame.
   void know_frame(const std::string& name) {
-    if (!name.empty()) frames_.named.emplace(name, Eigen::Isometry3d::Identity());
+    if (!name.empty()) frames_.named.emplace(name, NamedFrame{});
   }
   std::string frame_name(const Node& posed) const {
     const Node header = at(posed, "header");
@@ -282,23 +311,35 @@ class MoveItReader {
     return name.IsScalar() ? name.Scalar() : "";
   }
   /// nullptr: nobody names the robot. Asked once it is known where joints are.
-  const std::map<std::string, LinkFrame>* links() {
+  const RobotFrames* robot() {
     if (!frames_.robot) return nullptr;
-    if (links_.empty()) {
+    if (!robot_) {
       ArmFiles robot = *frames_.robot;
       if (scene_.arm) robot.held.insert(robot.held.begin(), scene_.arm->held.begin(), scene_.arm->held.end());
-      links_ = read_link_frames(robot, execution_);
+      const bool is_said = scene_.arm && scene_.arm->base_pose;  // else a scene has it at 0 0 0, whatever --robot says
+      if (is_said || !is_request_) robot.base_pose = is_said ? scene_.arm->base_pose : std::nullopt;
+      robot_ = read_robot_frames(robot, execution_);
     }
-    return &links_;
+    return &*robot_;
+  }
+  const LinkFrame* link_frame(const std::string& link) {
+    const RobotFrames* const all = robot();
+    if (all == nullptr) return nullptr;
+    const auto found = all->links.find(link);
+    return found != all->links.end() ? &found->second : nullptr;
   }
   std::optional<LinkFrame> known_frame(const std::string& name) {
     if (name.empty()) return LinkFrame{};
-    if (const auto* const all = links(); all != nullptr && all->contains(name)) return all->at(name);
-    if (const auto found = frames_.named.find(name); found != frames_.named.end())
-      return LinkFrame{.pose = found->second};
-    return name == "world" ? std::optional(LinkFrame{}) : std::nullopt;
+    if (const LinkFrame* const link = link_frame(name)) return *link;
+    const auto found = frames_.named.find(name);
+    if (found == frames_.named.end()) return name == "world" ? std::optional(LinkFrame{}) : std::nullopt;
+    const auto& [pose, link] = found->second;
+    if (link.empty()) return LinkFrame{.pose = pose};
+    const LinkFrame* const carrier = link_frame(link);
+    if (carrier == nullptr) return std::nullopt;
+    return LinkFrame{carrier->pose * pose, carrier->moves_with, carrier->open};
   }
-  bool is_root(const std::string& name) {
+  bool is_world(const std::string& name) {
     const auto frame = known_frame(name);
     return !name.empty() && frame && frame->moves_with.empty() && is_identity(frame->pose);
   }
@@ -306,15 +347,16 @@ class MoveItReader {
     if (auto frame = known_frame(frame_name(posed))) return std::move(*frame);
     yaml_.fail(at(at(posed, "header"), "frame_id"),
                "nobody says where this frame is: poses are in \"\", world, one of the scene's `fixed_frame_transforms` "
-               "or objects before, or a link of the robot that `--robot \"urdf FILE\"` names beside the scene");
+               "or objects before, or a link of the robot that `--robot \"urdf FILE\"` names beside the scene, or what "
+               "such a link carries");
   }
-  /// Where the frame of an object stands in that of the root, or of a goal, which the arm may not move.
-  Eigen::Isometry3d frame_in_root(const Node& posed, bool of_goal = false) {
+  /// Where the frame of an object stands in that of the world, or of a goal, which the arm may not move.
+  Eigen::Isometry3d frame_in_world(const Node& posed, bool of_goal = false) {
     const LinkFrame frame = frame_of(posed);
     const std::string& joint = of_goal ? frame.moves_with : frame.open;
     if (joint.empty()) return frame.pose;
     yaml_.fail(at(at(posed, "header"), "frame_id"),
-               fmt::format("this link moves with joint {}; {}", joint,
+               fmt::format("this frame moves with joint {}; {}", joint,
                            of_goal ? "give the goal in a frame that stands still"
                                    : "the scene's `joint_state` must say where that is"));
   }
@@ -322,19 +364,18 @@ class MoveItReader {
   Eigen::Isometry3d frame_on_link(const std::string& link, const Node& object) {
     const std::string name = frame_name(object);
     if (name.empty() || name == link) return Eigen::Isometry3d::Identity();
-    if (const auto* const all = links(); all != nullptr && all->contains(link)) {
-      const LinkFrame& carrier = all->at(link);
+    if (const LinkFrame* const carrier = link_frame(link)) {
       const LinkFrame frame = frame_of(object);
-      if (carrier.moves_with == frame.moves_with || (carrier.open.empty() && frame.open.empty()))
-        return carrier.pose.inverse() * frame.pose;
+      if (carrier->moves_with == frame.moves_with || (carrier->open.empty() && frame.open.empty()))
+        return carrier->pose.inverse() * frame.pose;
     }
     yaml_.fail(at(at(object, "header"), "frame_id"),
                fmt::format("what is attached must be in the frame {0}, or in one that the robot, named by `--robot`, "
                            "and `joint_state` place against {0}",
                            link));
   }
-  /// Those at 0 0 0, which name the frame of the root, or those apart from it: as MoveIt has them, not as tf does, from
-  /// the header's frame into the child's.
+  /// Those at 0 0 0, which name the frame of the world, or those apart from it: as MoveIt has them, not as tf does,
+  /// from the header's frame into the child's.
   void take_fixed_frames(const Node& root, bool is_apart) {
     for_each(root, "fixed_frame_transforms", [&](const Node& frame) {
       expect_keys(frame, "a fixed frame", {"header", "child_frame_id", "transform"});
@@ -343,13 +384,16 @@ class MoveItReader {
       const std::string name = frame_name(frame);
       const Node child = at(frame, "child_frame_id");
       const std::string to = child.IsScalar() ? child.Scalar() : "";
-      if (is_apart && (name.empty() || name == to || frames_.named.contains(name) || !is_root(to))) {
+      const bool has_no_name = is_apart && (name.empty() || name == to || frames_.named.contains(name));
+      const bool is_to_link = base_is_said() && link_frame(to) != nullptr;
+      if (has_no_name || ((is_apart || is_to_link) && !is_world(to))) {
         yaml_.fail(frame,
                    "`transform` is where the frame of `header` stands in that of `child_frame_id`, which must be the "
-                   "robot's root: world, its first link, or one that another fixed frame at 0 0 0 names");
+                   "world's: world, the robot's first link where it is at 0 0 0, or one that another fixed frame at "
+                   "0 0 0 names");
       }
       know_frame(to);
-      if (!name.empty()) frames_.named.emplace(name, place.pose());
+      if (!name.empty()) frames_.named.emplace(name, NamedFrame{place.pose()});
     });
   }
 
@@ -398,6 +442,7 @@ class MoveItReader {
     if (count(object, "primitives") + count(object, "meshes") == 0)
       yaml_.place(object).fail("what is attached needs its shapes here: `primitives` or `meshes`");
     for_each_solid(object, frame, [&](Solid solid) { push_asked(all, {link, std::move(solid), touched}, execution_); });
+    name_frames(object, {frame, link});
   }
   Solid primitive(const Node& shape, const PoseNumbers& pose) const {
     expect_keys(shape, "a primitive", {"type", "dimensions", "polygon"});
@@ -445,7 +490,7 @@ class MoveItReader {
     });
   }
   void take_object(const Node& object) {
-    const Eigen::Isometry3d frame = frame_in_root(object);
+    const Eigen::Isometry3d frame = frame_in_world(object);
     for_each_solid(object, frame, [&](Solid solid) {
       if (solid.kind == SolidKind::sphere) {
         const Vec3 at = solid.pose.translation();
@@ -454,23 +499,30 @@ class MoveItReader {
         push_asked(scene_.solids, std::move(solid), execution_);
       }
     });
-    if (const Node id = at(object, "id"); id.IsScalar()) name_frames(id.Scalar(), object, frame);
+    if (const Node id = at(object, "id"); id.IsScalar()) ids_.insert(id.Scalar());
+    name_frames(object, {frame});
   }
-  /// Of an object, where it has one shape and no pose that of the shape, and its subframes.
-  void name_frames(const std::string& id, const Node& object, const Eigen::Isometry3d& frame) {
-    ids_.insert(id);
+  /// Of an object, where it has one shape and no pose that of the shape, and its subframes. What is carried is known by
+  /// its name before what stands.
+  void name_frames(const Node& object, const NamedFrame& frame) {
+    const Node id = at(object, "id");
+    if (!id.IsScalar()) return;
+    const auto name = [&](const std::string& called, const Eigen::Isometry3d& pose) {
+      NamedFrame& known = frames_.named[called];
+      if (known.link.empty() || !frame.link.empty()) known = {pose, frame.link};
+    };
     PoseNumbers own = pose(at(object, "pose"));
     const bool is_mesh = count(object, "primitives") == 0;
     if (own.is_identity() && count(object, "primitives") + count(object, "meshes") == 1)
       own = pose(at(object, is_mesh ? "mesh_poses" : "primitive_poses")[0]);
-    const Eigen::Isometry3d stand = joined(frame, own).pose();
-    frames_.named.insert_or_assign(id, stand);
+    const Eigen::Isometry3d stand = joined(frame.pose, own).pose();
+    name(id.Scalar(), stand);
     const Node names = items(object, "subframe_names");
     if (names.size() != count(object, "subframe_poses"))
       yaml_.place(object).fail("`subframe_poses` must have as many items as `subframe_names`");
     std::size_t i = 0;
     for_each(object, "subframe_poses", [&](const Node& place) {
-      frames_.named.insert_or_assign(id + "/" + names[i++].Scalar(), joined(stand, pose(place)).pose());
+      name(id.Scalar() + "/" + names[i++].Scalar(), joined(stand, pose(place)).pose());
     });
   }
   /// As MoveIt reads it: what stands above the diagonal; defaults where there is no entry, false before true.
@@ -567,7 +619,7 @@ class MoveItReader {
     expect_keys(region, "a region", {"primitives", "primitive_poses", "meshes", "mesh_poses"});
     if (count(region, "meshes") > 0 || count(region, "primitive_poses") != 1)
       yaml_.fail(region, "a place needs one of `primitive_poses`");
-    const Eigen::Isometry3d frame = frame_in_root(place, true);
+    const Eigen::Isometry3d frame = frame_in_world(place, true);
     const Node middle = at(region, "primitive_poses")[0];
     expect_keys(middle, "a pose", {"position", "orientation"});
     PoseNumbers pose = joined(frame, {.at = numbers<3>(needed(middle, "position"), "position")});
@@ -579,7 +631,7 @@ class MoveItReader {
     expect_keys(turned, "an orientation",
                 {"header", "orientation", "link_name", "absolute_x_axis_tolerance", "absolute_y_axis_tolerance",
                  "absolute_z_axis_tolerance", "parameterization", "weight"});
-    const Eigen::Isometry3d turned_frame = frame_in_root(turned, true);
+    const Eigen::Isometry3d turned_frame = frame_in_world(turned, true);
     pose.turn = joined(turned_frame, {.turn = quaternion(needed(turned, "orientation"), "orientation")}).turn;
     scene_.goal_pose = pose.pose();
   }
@@ -600,8 +652,9 @@ class MoveItReader {
   MoveItFrames& frames_;
   YamlFile yaml_;
   const Execution& execution_;
-  std::map<std::string, LinkFrame> links_;  ///< of the robot; empty: not read yet
-  std::set<std::string> ids_;               ///< of the world's objects
+  bool is_request_ = false;
+  std::optional<RobotFrames> robot_;  ///< none: not read yet
+  std::set<std::string> ids_;         ///< of the world's objects
 };
 
 /// read: one of MoveItReader's. yaml-cpp's own words for a node that is not what its reader takes it for.

@@ -78,6 +78,13 @@ Eigen::Matrix3d turn_of_quaternion(double x, double y, double z, double w) {
   return turn;
 }
 
+Eigen::Isometry3d pose_of_numbers(std::span<const double> numbers) {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.translation() = point_at(numbers, 0);
+  pose.linear() = turn_of_quaternion(numbers[3], numbers[4], numbers[5], numbers[6]);
+  return pose;
+}
+
 std::array<double, 4> quaternion_of_turn(const Eigen::Matrix3d& turn) {
   // From the largest of the four squares, so that no root is of a difference of rounding errors.
   const double squares[] = {1.0 + turn(0, 0) - turn(1, 1) - turn(2, 2), 1.0 - turn(0, 0) + turn(1, 1) - turn(2, 2),
@@ -119,10 +126,9 @@ Solid solid_of_numbers(const SolidWord& word, std::span<const double> numbers, c
     solid.half = 0.5 * (b - a).cwiseAbs();
   } else if (word.name == "obox") {
     solid.kind = SolidKind::box;
-    solid.pose.translation() = point_at(numbers, 0);
     const bool is_turn = std::ranges::any_of(numbers.subspan(3, 4), [](double x) { return x != 0.0; });
     check(is_turn, "the quaternion QX QY QZ QW must not be 0 0 0 0");
-    solid.pose.linear() = turn_of_quaternion(numbers[3], numbers[4], numbers[5], numbers[6]);
+    solid.pose = pose_of_numbers(numbers);
     solid.half = point_at(numbers, 7);
     check((solid.half.array() >= 0.0).all(), "half the sides HX HY HZ must be at least 0");
   } else if (word.name == "hull") {

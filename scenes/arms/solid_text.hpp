@@ -49,6 +49,8 @@ std::string solid_text(const Solid& solid);
 
 /// The turn of a quaternion that is not zero; it need not be of length 1.
 Eigen::Matrix3d turn_of_quaternion(double x, double y, double z, double w);
+/// Of seven numbers: x, y, z, and a quaternion that is not zero.
+Eigen::Isometry3d pose_of_numbers(std::span<const double> numbers);
 /// x, y, z, w of a turn.
 std::array<double, 4> quaternion_of_turn(const Eigen::Matrix3d& turn);
 

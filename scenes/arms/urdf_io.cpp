@@ -22,6 +22,7 @@
 #include "core/base/error.hpp"
 #include "parallel/asked_memory.hpp"
 #include "scenes/arms/arm_files_io.hpp"
+#include "scenes/arms/solid_text.hpp"
 #include "scenes/arms/urdf_tree_io.hpp"
 #include "scenes/arms/xml_file_io.hpp"
 #include "scenes/scene/convex_hull.hpp"
@@ -161,6 +162,11 @@ Eigen::Isometry3d motion(const UrdfJoint& joint, double value) {
     pose.linear() = turn_about(joint.axis, value);
   }
   return pose;
+}
+
+/// Of the root, in the world.
+Eigen::Isometry3d base_of(const ArmFiles& files) {
+  return files.base_pose ? pose_of_numbers(*files.base_pose) : Eigen::Isometry3d::Identity();
 }
 
 /// Makes the model of a tree whose group is known.
@@ -320,6 +326,8 @@ class ArmModelMaker {
     execution_.reserve(tree_.links.size() * sizeof(Eigen::Isometry3d));
     frames_.assign(tree_.links.size(), base_frame);
     poses_.assign(tree_.links.size(), Eigen::Isometry3d::Identity());
+    poses_[tree_.root] = base_of(files_);
+    model_.base = poses_[tree_.root].translation();
     for (std::size_t j = 0; j < tree_.joints.size(); ++j) {
       if (j % 256 == 0) execution_.check();
       const UrdfJoint& joint = tree_.joints[j];
@@ -516,13 +524,14 @@ ArmModel read_urdf(const ArmFiles& files, const Execution& execution) {
   return ArmModelMaker(files, tree, group, execution).make(rules);
 }
 
-std::map<std::string, LinkFrame> read_link_frames(const ArmFiles& files, const Execution& execution) {
+RobotFrames read_robot_frames(const ArmFiles& files, const Execution& execution) {
   const InputFile file(files.urdf, execution);
   const XmlFile xml(file, "robot", most_urdf_bytes, execution);
   const UrdfTree tree(xml, execution);
   const std::string& root = tree.links[tree.root].name;
-  std::map<std::string, LinkFrame> frames;
-  frames.emplace(root, LinkFrame{});
+  RobotFrames robot;
+  std::map<std::string, LinkFrame>& frames = robot.links;
+  frames.emplace(root, LinkFrame{base_of(files)});
   for (const UrdfJoint& joint : tree.joints) {
     execution.check();
     LinkFrame frame = frames.at(tree.links[joint.above].name);
@@ -539,12 +548,14 @@ std::map<std::string, LinkFrame> read_link_frames(const ArmFiles& files, const E
     }
     frames.emplace(tree.links[joint.below].name, std::move(frame));
   }
-  if (files.srdf.empty()) return frames;
+  if (files.srdf.empty()) return robot;
   const InputFile srdf_file(files.srdf, execution);
   const XmlFile srdf(srdf_file, "robot", most_urdf_bytes, execution);
   const pugi::xml_node base = srdf.root().find_child_by_attribute("virtual_joint", "child_link", root.c_str());
   if (base) frames.emplace(base.attribute("parent_frame").value(), LinkFrame{});
-  return frames;
+  robot.base_joint = base.attribute("name").value();
+  robot.base_kind = base.attribute("type").value();
+  return robot;
 }
 
 }  // namespace warren

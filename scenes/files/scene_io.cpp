@@ -51,7 +51,7 @@ class SceneReader {
     bool once;
     void (SceneReader::*read)(Fields&);
   };
-  static constexpr std::size_t item_count = 26;
+  static constexpr std::size_t item_count = 27;
   static constexpr std::size_t most_named = 1024;  // joints
   static const std::array<Item, item_count> items;
 
@@ -168,6 +168,7 @@ class SceneReader {
   }
   void read_allow(Fields& fields) { warren::read_allow(fields, arm()); }
   void read_tool(Fields& fields) { arm().tool = word_of(fields); }
+  void read_base_pose(Fields& fields) { warren::read_base_pose(fields, arm()); }
   void read_group(Fields& fields) { arm().group = word_of(fields); }
   void read_bounds(Fields& fields) {
     const std::vector<double>& n = numbers(fields, 4, 4);
@@ -237,10 +238,7 @@ class SceneReader {
     if (std::all_of(n.begin() + 3, n.end(), [](double x) { return x == 0.0; })) {
       fields.place().fail("`goal pose`: the quaternion QX QY QZ QW must not be 0 0 0 0");
     }
-    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-    pose.translation() = Vec3(n[0], n[1], n[2]);
-    pose.linear() = turn_of_quaternion(n[3], n[4], n[5], n[6]);
-    return pose;
+    return pose_of_numbers(n);
   }
   void read_grid(Fields& fields) {
     const std::vector<double>& n = numbers(fields, 2, 2);
@@ -301,7 +299,7 @@ class SceneReader {
     }
     if (scene_.robot && scene_.robot->kind == RobotKind::urdf) return check_robot_line(*scene_.robot->files);
     if (!scene_.robot) return;
-    for (const std::string_view item : {"attach", "hold", "allow", "tool", "group"}) {
+    for (const std::string_view item : {"attach", "hold", "allow", "tool", "group", "base-pose"}) {
       if (first_line(item) > 0) place_of(item).fail(fmt::format("`{}` takes a `robot urdf`", item));
     }
     const bool has_names = scene_.named_start.has_value();
@@ -318,6 +316,7 @@ class SceneReader {
     };
     const ArmFiles& said = *scene_.arm;
     if (!own.tool.empty() && !said.tool.empty() && own.tool != said.tool) refuse("tool");
+    if (own.base_pose && said.base_pose && own.base_pose != said.base_pose) refuse("base-pose");
     const bool has_ends = !own.base.empty() || !own.tip.empty();
     if (!said.group.empty() && (has_ends || (!own.group.empty() && own.group != said.group))) refuse("group");
     for (const auto& held : own.held) {
@@ -380,6 +379,7 @@ const std::array<SceneReader::Item, SceneReader::item_count> SceneReader::items 
     {price_line_words[4].name, price_line_words[4].usage, price_line_words[4].once, &SceneReader::read_prices},
     {"moveit-names", "moveit-names", true, &SceneReader::check_done},
     {"group", "group NAME", true, &SceneReader::read_group},
+    {"base-pose", "base-pose X Y Z QX QY QZ QW", true, &SceneReader::read_base_pose},
 }};
 
 constexpr std::size_t line_grain = 8192;
@@ -446,6 +446,7 @@ void append_arm(std::string& text, const ArmFiles& arm) {
   for (const auto& [first, second] : arm.allowed) text += fmt::format("allow {} {}\n", first, second);
   if (!arm.tool.empty()) text += fmt::format("tool {}\n", arm.tool);
   if (!arm.group.empty()) text += fmt::format("group {}\n", arm.group);
+  if (arm.base_pose) append_item(text, "base-pose", *arm.base_pose);
   if (arm.said.empty() && !(arm.allowed.empty() && arm.attached.empty())) text += "moveit-names\n";
   for (const AttachedSolid& attached : arm.attached) {
     text += "attach " + attached.link;

@@ -98,6 +98,7 @@ struct ArmModel {
   std::vector<LinkPair> pairs;         ///< of links that may not touch each other, in order, no pair twice
   int tool_frame = base_frame;         ///< number of the joint that the tool is fixed in
   Eigen::Isometry3d tool = Eigen::Isometry3d::Identity();  ///< in that frame
+  Vec3 base = Vec3::Zero();                                ///< where its root stands, from which its reach counts
   std::vector<std::string> assumed;  ///< what is taken for granted, a line each: pairs of links that always touch, …
   std::vector<std::string> told = {};  ///< what its reader has to say, a line each: hulls against their meshes, …
   std::vector<std::pair<std::string, double>> standing = {};  ///< joints that could move and stand still, and where

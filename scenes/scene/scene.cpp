@@ -118,6 +118,9 @@ std::string urdf_words(const ArmFiles& files) {
   add("tip", files.tip);
   add("tool", files.tool);
   for (const std::string& package : files.packages) add("package-path", package);
+  if (files.base_pose) words += " base-pose";
+  for (const double x : files.base_pose ? std::span<const double>(*files.base_pose) : std::span<const double>())
+    words += fmt::format(" {}", x + 0.0);
   for (const auto& [joint, value] : files.held) words += fmt::format(" hold {} {}", joint, value + 0.0);
   for (const auto& [one, other] : files.allowed) words += fmt::format(" allow {} {}", one, other);
   return words;
@@ -147,6 +150,7 @@ RobotSpec with_what_is_said(RobotSpec robot, const Scene& scene) {
   const bool has_group = !files.group.empty() || !files.base.empty() || !files.tip.empty();
   if (!has_group) files.group = said.group;
   if (files.tool.empty()) files.tool = said.tool;
+  if (!files.base_pose) files.base_pose = said.base_pose;
   for (const auto& joint : said.held) {
     const auto same = [&](const auto& other) { return other.first == joint.first; };
     if (std::ranges::none_of(files.held, same)) files.held.push_back(joint);
@@ -169,6 +173,7 @@ RobotSpec without_what_is_said(RobotSpec robot, const Scene& scene) {
   std::erase_if(files.allowed, [&](const auto& pair) { return said.contains(pair); });
   if (files.group == scene.arm->group) files.group.clear();
   if (files.tool == scene.arm->tool) files.tool.clear();
+  if (files.base_pose == scene.arm->base_pose) files.base_pose.reset();
   files.attached.clear();
   files.said.clear();
   return robot;

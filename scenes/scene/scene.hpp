@@ -91,6 +91,8 @@ struct ArmFiles {
   std::vector<std::array<std::string, 2>> allowed = {};   ///< pairs of links that may touch, beside the SRDF's
   std::vector<AttachedSolid> attached = {};               ///< what the arm carries
   std::string tool = {};  ///< the link whose frame the tool is; empty: the group's tip, or what hangs on its last joint
+  /// Where the URDF's root stands in the world: x, y, z, and a quaternion of any length but 0; none: at 0 0 0.
+  std::optional<std::array<double, 7>> base_pose = {};
   /// Names of links that lines of text say, each with its place: one that the robot lacks is refused. MoveIt's are
   /// none of these; one that is lacking is told.
   std::vector<std::pair<std::string, std::string>> said = {};
@@ -144,8 +146,8 @@ struct Scene {
   std::optional<MazeFormula> formula;  ///< of the maze's walls; these may be left out (is_unmade)
   std::optional<PackedMaze> packed;    ///< the same of walls that a file holds
   std::optional<RobotSpec> robot;      ///< that the file asks for; none: a point
-  /// Of the arm, beside what its robot's line says: group, joints held, links that may touch, attached solids; `urdf`
-  /// is empty. with_what_is_said() joins the two.
+  /// Of the arm, beside what its robot's line says: group, where its root stands, joints held, links that may touch,
+  /// attached solids; `urdf` is empty. with_what_is_said() joins the two.
   std::optional<ArmFiles> arm;
   std::vector<double> start;                     ///< 2, 3 or 6 numbers, of an arm of files up to 14; empty: none
   std::vector<double> goal;                      ///< the same; an arm's 3 are a place of its tool

@@ -234,6 +234,8 @@ class RobotReader : LineReader {
         *once = urdf_word(name);
       } else if (name == "package-path") {
         files.packages.push_back(urdf_word(name));
+      } else if (name == "base-pose" && !files.base_pose) {
+        read_base_pose(fields_, files);
       } else if (name == "hold") {
         read_hold(fields_, files);
       } else if (name == "allow") {
@@ -367,6 +369,18 @@ std::string mask_text(const PriceMask& mask, const std::string& file) {
 constexpr std::size_t bytes_a_look = std::size_t{1} << 18;
 
 }  // namespace
+
+void read_base_pose(Fields& fields, ArmFiles& files) {
+  std::array<double, 7> pose{};
+  for (double& x : pose) {
+    if (!fields.number_follows())
+      fields.place().fail("expected `base-pose X Y Z QX QY QZ QW`", fields.done() ? "too few numbers" : fields.word());
+    x = fields.number();
+  }
+  if (std::all_of(pose.begin() + 3, pose.end(), [](double x) { return x == 0.0; }))
+    fields.place().fail("`base-pose`: the quaternion QX QY QZ QW must not be 0 0 0 0");
+  files.base_pose = pose;
+}
 
 void read_hold(Fields& fields, ArmFiles& files) {
   std::string joint(fields.word());

@@ -126,7 +126,7 @@ inline constexpr std::string_view robot_usage =
     "urdf FILE [srdf FILE] [group NAME] ...";
 inline constexpr std::string_view urdf_usage =
     "robot urdf FILE [srdf FILE] [group NAME | base LINK tip LINK] [tool LINK] [package-path DIR] ... "
-    "[hold JOINT VALUE] ... [allow LINK LINK] ...";
+    "[base-pose X Y Z QX QY QZ QW] [hold JOINT VALUE] ... [allow LINK LINK] ...";
 inline constexpr std::string_view car_usage =
     "robot car radius R|polygon X Y X Y X Y ... turning RHO [steering dubins|reeds-shepp|differential]";
 
@@ -136,7 +136,8 @@ inline constexpr std::string_view robot_option =
     "car polygon X Y X Y X Y ... turning RHO, puma560 radius R, arm FILE radius R or "
     "urdf FILE [srdf FILE] [group NAME]";
 
-/// Reads what follows `hold` or `allow`, one of them, to the end of these words. Throws InputError.
+/// Reads what follows `base-pose`, `hold` or `allow`, one of them, to the end of these words. Throws InputError.
+void read_base_pose(scene_text::Fields& fields, ArmFiles& files);
 void read_hold(scene_text::Fields& fields, ArmFiles& files);
 void read_allow(scene_text::Fields& fields, ArmFiles& files);
 

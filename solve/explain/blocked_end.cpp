@@ -507,13 +507,14 @@ class BlockedArm {
 /// line.
 void explain_reach(Answer& answer, const Vec3& place, const ArmProblem& problem) {
   double reach = problem.table ? problem.table->tool.translation().norm() : reach_of(problem);
-  if (!problem.table && !(place.norm() > reach)) return;  // what others might reach
+  const double away = (place - problem.model.base).norm();
+  if (!problem.table && !(away > reach)) return;  // what others might reach
   if (problem.table) {
     for (const DhJoint& joint : problem.table->joints) reach += portable::hypot(joint.a, joint.d);
   }
   answer.blocked = BlockedEnd{.is_start = false, .by = "outside of what the tool reaches within the joints' limits"};
   answer.blocked->hint =
-      fmt::format("it is {} from the base, and {} {}", human_number(place.norm()),
+      fmt::format("it is {} from the base, and {} {}", human_number(away),
                   problem.table ? "all links in a line are as long as" : "no point of the arm gets farther than",
                   human_number(reach));
 }

@@ -341,13 +341,90 @@ world:
   open.erase(open.find("robot_state"), open.find("world:") - open.find("robot_state"));
   const Outcome unsaid = run({"update", roadmap, folder_.write("open.yaml", open), "-o", roadmap + "3"});
   EXPECT_EQ(unsaid.code, 65);
-  EXPECT_NE(unsaid.err.find("this link moves with joint base"), std::string::npos) << unsaid.err;
+  EXPECT_NE(unsaid.err.find("this frame moves with joint base"), std::string::npos) << unsaid.err;
   const Outcome unknown = run({"convert", scene, "-o", plain});
   EXPECT_EQ(unknown.code, 65);
   EXPECT_NE(unknown.err.find("frames.yaml:6: nobody says where this frame is"), std::string::npos) << unknown.err;
   const Outcome ignored = run({"convert", file_, "--robot", robot_, "-o", plain});
   EXPECT_EQ(ignored.code, 2);
   EXPECT_NE(ignored.err.find("--robot: is for --simplify"), std::string::npos) << ignored.err;
+}
+
+/// As if the URDF had one fixed joint more; the tool's goals are in the world, and so is what stands in it.
+TEST_F(SolveUrdf, ARobotStandsAnywhere) {
+  const auto words = [](std::string robot) { return robot.replace(robot.find("crane.urdf"), 10, "far.urdf"); };
+  std::string far = crane_urdf;
+  far.replace(far.find("<link name=\"world\"/>"), 21,
+              R"(<link name="ground"/><link name="world"/><joint name="put" type="fixed"><parent link="ground"/>)"
+              R"(<child link="world"/><origin xyz="30 -20 0.5"/></joint>)");
+  folder_.write("far.urdf", far);
+  const std::string stands = robot_ + " base-pose 30 -20 0.5 0 0 0 1";
+  const std::string ends = "\nstart -0.9 0.3 0.2 0\ngoal 0.9 0.3 0.2 0.1\n";
+  const std::string yard_there = "\ncylinder 30.7 -20 0.5 30.7 -20 1.5 0.1" + ends;
+  const std::string scene = folder_.write("there.scene", "robot " + stands + yard_there);
+  const std::string fixed = folder_.write("fixed.scene", "robot " + words(robot_) + yard_there);
+  const std::string answer = folder_.path("there.json");
+  for (const auto& [file, json] : {std::pair(scene, answer), {fixed, folder_.path("fixed.json")}})
+    ASSERT_EQ(run({"solve", file, "--json", json, "--quiet"}).code, 0);
+  const Json here = Json::parse(folder_.read("there.json"));
+  EXPECT_EQ(here["path"], Json::parse(folder_.read("fixed.json"))["path"]);
+  EXPECT_EQ(here["robot"].get<std::string>(), stands);
+  for (const std::vector<std::string>& asked : {std::vector<std::string>{"verify", scene, answer},
+                                                {"render", scene, "--answer", answer, "-o", folder_.path("there.svg")},
+                                                {"solve", scene, "--goal-pose", "29,-20,0.9,0,0,1,0", "--quiet"}}) {
+    const Outcome outcome = run(asked);
+    EXPECT_EQ(outcome.code, 0) << shown(asked) << outcome.err;
+  }
+  const Outcome out_of_reach = run({"solve", scene, "--goal-pose", "30,-10,0.5,0,0,1,0"});
+  EXPECT_EQ(out_of_reach.code, 1);
+  EXPECT_NE(out_of_reach.out.find("it is 10 from the base"), std::string::npos) << out_of_reach.out;
+}
+
+/// Of MoveIt: the state of the scene has it, then the request's; `convert` keeps it.
+TEST_F(SolveUrdf, ARobotStandsWhereMoveItHasIt) {
+  folder_.write("crane.srdf", std::string(crane_srdf).replace(22, 0, R"(<virtual_joint name="wheels" type="planar"
+    parent_frame="odom" child_link="world"/>)"));
+  const std::string state =
+      "multi_dof_joint_state: {header: {frame_id: odom}, joint_names: [wheels], transforms: "
+      "[{translation: [4, 0, 0], rotation: [0, 0, 1, 0]}]}";
+  const std::string scene = folder_.write("there.yaml", "robot_model_name: crane\nrobot_state: {" + state + R"(}
+world:
+  collision_objects:
+    - id: pillar
+      header: {frame_id: odom}
+      primitives: [{type: cylinder, dimensions: [1, 0.1]}]
+      primitive_poses: [{position: [3.3, 0, 0.5]}]
+)");
+  const std::string request = folder_.write(
+      "r.yaml",
+      "group_name: arm\nstart_state: {joint_state: {name: [base, shoulder, elbow, slide], position: [-0.9, "
+      "0.3, 0.2, 0]}, " +
+          state +
+          "}\ngoal_constraints: [{joint_constraints: [{joint_name: base, position: "
+          "0.9}, {joint_name: shoulder, position: 0.3}, {joint_name: elbow, position: 0.2}, {joint_name: slide, "
+          "position: 0.1}]}]\n");
+  const std::string answer = folder_.path("there.json");
+  const std::string plain = folder_.path("there.scene");
+  const std::string roadmap = folder_.path("there.roadmap");
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"solve", scene, "--robot", robot_, "--request", request, "--json", answer, "--quiet"},
+        {"verify", scene, answer},
+        {"render", scene, "--answer", answer, "-o", folder_.path("there.svg")},
+        {"convert", scene, "--request", request, "--robot", robot_, "-o", plain},
+        {"verify", plain, answer},
+        {"solve", plain, "--robot", robot_, "--request", request, "--quiet"},
+        {"build", scene, "--robot", robot_, "-o", roadmap, "--samples", "50", "--quiet"},
+        {"update", roadmap, plain, "-o", roadmap + "2", "--quiet"}}) {
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.code, 0) << shown(words) << outcome.err;
+  }
+  EXPECT_NE(folder_.read("there.scene").find("base-pose 4 0 0 0 0 1 0\n"), std::string::npos);
+  EXPECT_EQ(Json::parse(folder_.read("there.json"))["start"], Json::parse("[-0.9, 0.3, 0.2, 0.0]"));
+  const Outcome blocked = run({"solve", plain, "--robot", robot_, "--start", "0,0,0,0"});
+  EXPECT_NE(blocked.out.find("cylinder 0: at 3.3 0 0.5"), std::string::npos) << blocked.out;
+  const Outcome unknown = run({"info", scene});
+  EXPECT_EQ(unknown.code, 65);
+  EXPECT_NE(unknown.err.find("there.yaml:2: only the SRDF's virtual joint"), std::string::npos) << unknown.err;
 }
 
 TEST_F(SolveUrdf, AnAnswerOfOtherJointsIsNeitherKeptNorDrawn) {

@@ -149,6 +149,19 @@ Scene load_world(const InputFile& file, const Arguments& arguments, const Execut
   return scene;
 }
 
+Scene load_world_alone(const std::string& source, const Arguments& arguments, const Execution& execution,
+                       std::string_view other_use) {
+  if (!arguments.has("--robot") || arguments.has("--request")) return load_world(source, arguments, execution);
+  const auto refuse = [&] {
+    arguments.refuse({"--robot"},
+                     fmt::format("is for {}a scene or request of MoveIt with poses in links' frames", other_use));
+  };
+  if (is_made_source(source)) refuse();
+  const InputFile file(source, execution);
+  if (format_of(file) != WorldFormat::moveit) refuse();
+  return load_world(file, arguments, execution);
+}
+
 void check_world_file(const std::string& file) {
   const std::string ending = ending_of(file);
   const bool is_world = is_among(ending, ".walls .scene .txt .npy .maze .geojson .wkt");

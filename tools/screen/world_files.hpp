@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "core/base/solution.hpp"
 #include "core/run/execution.hpp"
@@ -38,6 +39,14 @@ Scene load_planned_world(const std::string& source, std::optional<PipelineKind> 
 /// The same for a file that is open already.
 Scene load_world(const InputFile& file, const Arguments& arguments, const Execution& execution,
                  StageTimes* seconds = nullptr, const std::optional<RobotSpec>& robot = {});
+
+/// Of who reads a world alone: the arm of a scene or request of MoveIt.
+inline constexpr OptionSpec moveit_robot_option{
+    "--robot", "\"BODY\"", "of a scene or request of MoveIt: the arm in whose links' frames poses may be"};
+
+/// For who takes that option: UsageError for it where it would be passed over. other_use: "--simplify, or for ".
+Scene load_world_alone(const std::string& source, const Arguments& arguments, const Execution& execution,
+                       std::string_view other_use = {});
 
 /// Scene text, .npy, or a picture, by the file's ending; "-" is scene text. Returns as write_picture() does.
 std::vector<std::string> write_world(const Scene& scene, const std::string& file, const PictureOptions& options,

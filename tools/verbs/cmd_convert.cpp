@@ -98,14 +98,8 @@ std::string write_any(Scene& scene, const std::string& file, const Arguments& ar
 }
 
 Scene load_converted(const Arguments& arguments, const Execution& execution) {
-  const std::string& world = arguments.operand(0);
   check_not_written(arguments, question_words(arguments).robot);
-  if (!arguments.has("--robot") || arguments.has("--request")) return load_world(world, arguments, execution);
-  constexpr std::string_view why = "is for --simplify, or for a scene or request of MoveIt with poses in links' frames";
-  if (is_made_source(world)) arguments.refuse({"--robot"}, why);
-  const InputFile file(world, execution);
-  if (format_of(file) != WorldFormat::moveit) arguments.refuse({"--robot"}, why);
-  return load_world(file, arguments, execution);
+  return load_world_alone(arguments.operand(0), arguments, execution, "--simplify, or for ");
 }
 
 int convert(const Arguments& arguments) {

@@ -292,6 +292,7 @@ void JudgedArm::add_link(std::size_t link) {
   if (from.solids.size() != 1) bodies_.push_back({{}, {}, from.frame, link, bodies_.size() + 1, from.solids.size()});
   Vec3 low = Vec3::Constant(largest_coordinate);
   Vec3 high = -low;
+  const Vec3 origin = from.frame == base_frame ? model_.base : Vec3(Vec3::Zero());
   double reach = 0.0;
   for (const Solid& solid : from.solids) {
     JudgedBody body;
@@ -301,7 +302,7 @@ void JudgedArm::add_link(std::size_t link) {
     const Vec3 room = Vec3::Constant(body.core.far + body.core.radius);
     low = low.cwiseMin(body.frame.at - room);
     high = high.cwiseMax(body.frame.at + room);
-    reach = std::max(reach, body.frame.at.norm() + body.core.far);
+    reach = std::max(reach, (body.frame.at - origin).norm() + body.core.far);
     bodies_.push_back(std::move(body));
   }
   JudgedBody& ball = bodies_[balls_.back()];
@@ -312,7 +313,7 @@ void JudgedArm::add_link(std::size_t link) {
       const double far = (part.frame.at - ball.frame.at).norm() + part.core.far + part.core.radius;
       ball.core.radius = std::max(ball.core.radius, far * (1.0 + 1e-14));
     }
-    reach = std::max(reach, ball.frame.at.norm());
+    reach = std::max(reach, (ball.frame.at - origin).norm());
   }
   reach_.push_back(reach * (1.0 + 1e-14));
 }
@@ -370,7 +371,8 @@ std::vector<Sway> JudgedArm::sways(std::span<const double> turns, std::span<cons
         sway.bend += turn * (turn * sway.reach + 2.0 * sway.speed);
         sway.speed += turn * sway.reach;
       }
-      sway.reach = (sway.reach + joint.origin.translation().norm()) * (1.0 + 1e-14);
+      const Vec3 origin = joint.parent == base_frame ? model_.base : Vec3(Vec3::Zero());
+      sway.reach = (sway.reach + (joint.origin.translation() - origin).norm()) * (1.0 + 1e-14);
       j = joint.parent;
     }
   }

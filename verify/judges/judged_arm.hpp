@@ -92,7 +92,7 @@ struct JudgedFrame {
 
 /// Bounds for all points of a link's cores, on a leg, against the frame of a joint behind it.
 struct Sway {
-  double reach = 0.0;  ///< how far from that frame's origin
+  double reach = 0.0;  ///< how far from that frame's origin; of the base's from where the root stands
   double speed = 0.0;  ///< their way a leg
   double bend = 0.0;   ///< the second derivative
 };

@@ -178,7 +178,7 @@ class ArmVerifier {
   /// that have no digits left for the arm. Along each axis, places within the arm's reach are as far from what is left
   /// as from the whole.
   void add_box(std::size_t number, SolidFrame frame, Vec3 low, Vec3 high) {
-    const Vec3 base = -frame.seen(frame.at);
+    const Vec3 base = frame.seen(model.base - frame.at);
     for (int k = 0; k < 3; ++k) {
       const double near = std::clamp(base[k] - 2.0 * reach, low[k], high[k]);
       high[k] = std::clamp(base[k] + 2.0 * reach, low[k], high[k]);
@@ -326,8 +326,8 @@ class ArmLeg {
     const auto behind = as_whole<std::size_t>(judge_.arm.joint_behind(a.joint, b.joint) + 1);
     const Sway& sway_a = sways_[a.owner * row_ + behind];
     const Sway sway_b = pair.of_arm ? sways_[b.owner * row_ + behind] : Sway{};
-    const double size =
-        sways_[a.owner * row_].reach + at_b.frame.at.norm() + b.core.far + a.core.radius + b.core.radius;
+    const double size = judge_.model.base.norm() + sways_[a.owner * row_].reach + at_b.frame.at.norm() + b.core.far +
+                        a.core.radius + b.core.radius;
     const double rounding = rounding_ * (1.0 + half_ * turns_) * (size + judge_.options.clearance);
     const double way = half_ * (sway_a.speed + sway_b.speed);
     const double radii = a.core.radius + b.core.radius;

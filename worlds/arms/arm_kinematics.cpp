@@ -112,7 +112,7 @@ void ArmKinematics::add_reach(int frame, Vec3 centre, double radius, double marg
     centre = placed_point(joint.origin, centre);
     frame = joint.parent;
   }
-  whole_reach_ = std::max(whole_reach_, margin + (centre.norm() + radius));
+  whole_reach_ = std::max(whole_reach_, margin + ((centre - model_.base).norm() + radius));
 }
 
 const MovingFrame& ArmKinematics::frame(const ArmPosture& posture, int number) {

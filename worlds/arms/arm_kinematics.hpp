@@ -34,7 +34,7 @@ class ArmKinematics {
 
   /// Turns and places of all frames; they are at rest.
   void place(const JointState& q, ArmPosture& posture) const;
-  /// The tool in the base's frame.
+  /// The tool in the world.
   Eigen::Isometry3d tool_pose(const JointState& q) const;
   /// A frame of a placed posture; of the base's number, what never moves.
   static const MovingFrame& frame(const ArmPosture& posture, int number);

@@ -5,6 +5,10 @@ import os
 from . import _core
 
 
+def _numbers(values):
+    return " ".join(f"{float(x)!r}" for x in values)
+
+
 def _corners(outline):
     return " ".join(f"{float(x)!r} {float(y)!r}" for x, y in outline)
 
@@ -130,7 +134,7 @@ def arm(table, radius, *, tool=0.0,
     return _core.body(f"arm {os.fspath(table)} " + _links(radius, tool, self_collision))
 
 
-def urdf(file, *, srdf=None, group=None, base=None, tip=None, package_path=()):
+def urdf(file, *, srdf=None, group=None, base=None, tip=None, package_path=(), base_pose=None):
     """An arm that a URDF describes: 1 to 14 joints that move, links with spheres, boxes, cylinders, capsules, meshes.
 
     Parameters
@@ -143,6 +147,8 @@ def urdf(file, *, srdf=None, group=None, base=None, tip=None, package_path=()):
         Links, instead of a group: the joints between them move. Without either all joints do.
     package_path : str, path or list of them
         Folders where ``package://`` is looked for, beside the file's own.
+    base_pose : (7,), optional
+        Where the URDF's root stands in the world: x, y, z and a quaternion x, y, z, w (default: at 0 0 0).
 
     Examples
     --------
@@ -154,4 +160,5 @@ def urdf(file, *, srdf=None, group=None, base=None, tip=None, package_path=()):
     for name, value in (("srdf", srdf), ("group", group), ("base", base), ("tip", tip)):
         words += f" {name} {os.fspath(value)}" if value is not None else ""
     folders = [package_path] if isinstance(package_path, (str, os.PathLike)) else package_path
-    return _core.body(words + "".join(f" package-path {os.fspath(folder)}" for folder in folders))
+    words += "".join(f" package-path {os.fspath(folder)}" for folder in folders)
+    return _core.body(words + (f" base-pose {_numbers(base_pose)}" if base_pose is not None else ""))

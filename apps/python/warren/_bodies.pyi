@@ -26,4 +26,5 @@ def urdf(
     base: str | None = ...,
     tip: str | None = ...,
     package_path: _Path | list[_Path] | tuple[_Path, ...] = ...,
+    base_pose: ArrayLike | None = ...,
 ) -> str: ...

@@ -34,7 +34,7 @@ def build(world, **options):
     >>> warren.build(warren.maze(21, 21), planner="lazy-prm", sampler="uniform", samples=500, seed=4).edges.free
     0
     """
-    return Roadmap(_core.build(as_world(world)._core, options))
+    return Roadmap(_core.build(as_world(world, options.get("robot"))._core, options))
 
 
 def open_roadmap(file, *, world=None, **limits):

@@ -39,8 +39,12 @@ def read_world(source, **options):
     >>> warren.read_world("maze:41x41,seed=7,loops=0.05").maze
     (41, 41)
     """
+    return _read(source, options, False)
+
+
+def _read(source, options, is_asked):
     name = os.fsdecode(source)
-    return World(_core.read_world(os.fsencode(name), options), name if name.startswith("maze:") else None)
+    return World(_core.read_world(os.fsencode(name), options, is_asked), name if name.startswith("maze:") else None)
 
 
 def example(name):
@@ -284,12 +288,12 @@ def from_geo(geometry, *, bounds=None, start=None, goal=None, robot=None,
     return World(_core.read_text("geometry", text, said))
 
 
-def as_world(world):
-    """A world as functions take it: one, the name of one, an array of cells, or geometry."""
+def as_world(world, robot=None):
+    """A world as functions take it: one, the name of one, an array of cells, or geometry; robot: that is asked about."""
     if isinstance(world, World):
         return world
     if isinstance(world, (str, os.PathLike)):
-        return read_world(world)
+        return _read(world, {"robot": robot}, True)
     if isinstance(world, np.ndarray):
         return grid(world)
     if hasattr(world, "__geo_interface__") or isinstance(world, (dict, list, tuple)):

@@ -11,6 +11,7 @@ def read_world(
     *,
     map_rules: Literal["nav2", "ros1"] | None = ...,
     request: _Path | None = ...,
+    robot: str | None = ...,
     threads: int | None = ...,
     budget: float | str | None = ...,
     memory: int | str | None = ...,
@@ -60,4 +61,4 @@ def from_geo(
     robot: str | None = ...,
     clearance: float | None = ...,
 ) -> World: ...
-def as_world(world: _World) -> World: ...
+def as_world(world: _World, robot: str | None = ...) -> World: ...

@@ -87,7 +87,7 @@ def solve(world, start=None, goal=None, *, keep=False, explain=False, on_improve
     >>> warren.solve("maze:5x5", (1, 1), (9, 9)).status
     'goal_blocked'
     """
-    there = as_world(world)
+    there = as_world(world, options.get("robot"))
     _take_ends(options, start, goal)
     if on_improvement is not None and not callable(on_improvement):
         raise TypeError(f"on_improvement: expected a function (found: {type(on_improvement).__name__})")
@@ -205,7 +205,7 @@ def verify(world, path, **options):
     >>> warren.verify(world, answer, explain=True).narrowest.clearance
     0.5
     """
-    there = as_world(world)
+    there = as_world(world, options.get("robot"))
     if isinstance(path, Answer):
         told = _core.verify_json(there._core, path.json(), options)
     elif isinstance(path, (str, os.PathLike)):

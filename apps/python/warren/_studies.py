@@ -112,5 +112,5 @@ def compare(world=None, **options):
     >>> list(searched.table["search"]), set(searched["length"])
     (['dijkstra', 'astar'], {495.0})
     """
-    there = None if world is None else as_world(world)._core
+    there = None if world is None else as_world(world, options.get("robot"))._core
     return Comparison(_core.compare(there, options))

@@ -17,6 +17,13 @@ OTHER = {"radius": 0.2, "outline": [(0, 0), (2, 0), (0, 1)], "turning_radius": 3
          "limits": "symmetric", "self_collision": True, "table": "other.dh"}
 
 
+def test_an_arm_of_files_stands_anywhere():
+    said = warren.urdf("a.urdf", package_path="p", base_pose=(1, 0, 0.5, 0, 0, 0, 1))
+    assert said == "urdf a.urdf package-path p base-pose 1.0 0.0 0.5 0.0 0.0 0.0 1.0"
+    with pytest.raises(warren.InputError, match="QX QY QZ QW"):
+        warren.urdf("a.urdf", base_pose=(1, 0, 0))
+
+
 @pytest.mark.parametrize("make, keyword", [(make, keyword) for make in PLAIN for keyword in inspect.signature(make).parameters])
 def test_every_keyword_of_a_body_is_in_its_words(make, keyword):
     plain = PLAIN[make]

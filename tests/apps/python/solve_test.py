@@ -221,6 +221,36 @@ def test_a_path_of_an_arm_of_files_has_its_joints(tmp_path, joints):
         warren.verify(str(scene), np.zeros((2, joints % 14 + 1)))
 
 
+def test_poses_of_moveit_are_in_frames_of_the_robot_that_is_named(tmp_path):
+    (tmp_path / "arm.urdf").write_text(
+        '<robot name="r"><link name="a"/><link name="b"><collision><geometry><sphere radius="0.1"/></geometry></collision></link>'
+        '<joint name="j" type="prismatic"><parent link="a"/><child link="b"/><origin xyz="1 0 0"/><axis xyz="0 0 1"/>'
+        '<limit lower="-1" upper="1"/></joint></robot>')
+    (tmp_path / "r.srdf").write_text(
+        '<robot name="r"><virtual_joint name="v" type="planar" parent_frame="odom" child_link="a"/></robot>')
+    scene = tmp_path / "scene.yaml"
+    scene.write_text("""robot_model_name: r
+robot_state:
+  joint_state: {name: [j], position: [0.5]}
+  multi_dof_joint_state: {joint_names: [v], transforms: [{translation: [0, 7, 0]}]}
+world:
+  collision_objects:
+    - {id: c, header: {frame_id: b}, primitives: [{type: sphere, dimensions: [0.5]}], primitive_poses: [{position: [2, 0, 0]}]}
+""")
+    robot = warren.urdf(tmp_path / "arm.urdf", srdf=tmp_path / "r.srdf")
+    world = warren.read_world(scene, robot=robot)
+    assert world.spheres.tolist() == [[3, 7, 0.5, 0.5]]
+    for there in (world, str(scene), pickle.loads(pickle.dumps(world))):
+        answer = warren.solve(there, [-0.9], [0.9], robot=robot)
+        assert answer.verified and answer.robot.endswith("base-pose 0 7 0 0 0 0 1 hold j 0.5")
+        assert warren.verify(there, answer, robot=robot)
+    with pytest.raises(warren.InputError, match="only the SRDF's virtual joint"):
+        warren.read_world(scene)
+    for other in ("maze:5x5", WORLDS / "parking.scene"):
+        with pytest.raises(warren.UsageError, match="^robot: is for a scene or request of MoveIt"):
+            warren.read_world(other, robot=robot)
+
+
 def test_a_path_of_a_world_without_ends_is_judged_by_its_own():
     world = warren.scene(walls=[(3, 0, 3, 5)], bounds=(0, 0, 9, 9))
     assert warren.verify(world, [(1, 1), (1, 6), (8, 6)]) and not warren.verify(world, [(1, 1), (8, 1)])

@@ -255,7 +255,7 @@ TEST_F(MoveItFrame, OfALinkIsWhereTheStateHasIt) {
   EXPECT_TRUE(ball_in("post").isApprox(Vec3(-1, 3, 1), 1e-12));
   EXPECT_TRUE(ball_in("palm").isApprox(palm * Vec3(3, 2, 1), 1e-12));
   expect_refused(without_turn(ball_text("palm")),
-                 "a.yaml:36: this link moves with joint turn; the scene's `joint_state` must say where");
+                 "a.yaml:36: this frame moves with joint turn; the scene's `joint_state` must say where");
 }
 
 /// Of objects that stand before, and their subframes; the ball, which has one shape and no pose, is where its shape is.
@@ -281,10 +281,10 @@ TEST_F(MoveItFrame, OfAFixedFrameIsWhereItStandsInTheRoots) {
   EXPECT_TRUE(ball_in("table", fixed("table", "world")).isApprox(there, 1e-12));
   EXPECT_TRUE(ball_in("world", fixed("world", "base")).isApprox(there, 1e-12));
   for (const auto& [name, to] : {std::pair("base", "table"), {"world", "table"}, {"table", "post"}, {"table", "arm"}})
-    expect_refused(ball_text("world") + fixed(name, to), "`child_frame_id`, which must be the robot's root: world, ");
+    expect_refused(ball_text("world") + fixed(name, to), "`child_frame_id`, which must be the world's: world, ");
   frames_.robot.reset();
   EXPECT_TRUE(ball_in("table", fixed("table", "world")).isApprox(there, 1e-12));
-  expect_refused(ball_text("table") + fixed("table", "base"), "must be the robot's root");
+  expect_refused(ball_text("table") + fixed("table", "base"), "must be the world's");
 }
 
 /// Where the frame moves with the link that carries, or the state says where both are.
@@ -297,6 +297,130 @@ TEST_F(MoveItFrame, OfWhatIsCarriedIsPlacedAgainstItsLink) {
   EXPECT_TRUE(cup_in("post", scene_text).isApprox(Vec3(0, 0, -0.9), 1e-12));
   EXPECT_TRUE(cup_in("arm", no_turn).isApprox(Vec3(0, 0, -0.9), 1e-12));
   expect_refused(with(no_turn, "frame_id: hand", "frame_id: post"), "what is attached must be in the frame hand, or");
+}
+
+/// As the link has it that carries it, with its pose; before an object of the same name. In what stands above.
+TEST_F(MoveItFrame, OfWhatIsCarriedIsWhereTheStateHasIt) {
+  const Eigen::Isometry3d post = Eigen::Translation3d(1, 0, 0) * Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitZ());
+  const Eigen::Isometry3d cup = post * Eigen::AngleAxisd(0.5, Vec3::UnitZ()) * Eigen::Translation3d(0, 0, 1.1);
+  EXPECT_TRUE(ball_in("cup").isApprox(cup * Vec3(3, 2, 1), 1e-12));
+  const auto with_cup = [&](const std::string& more) {
+    return with(scene_text, "id: cup", "id: cup\n        " + more);
+  };
+  const std::string placed =
+      "pose: {position: [0, 0, 5]}\n        subframe_names: [lid]\n        subframe_poses: [{position: [1, 0, 0]}]";
+  const Scene lid = read(with(with_cup(placed), "- id: ball", "- id: ball\n      header: {frame_id: cup/lid}"));
+  const Vec3 there = cup * Vec3(4, 2, 5.9);
+  EXPECT_TRUE(Vec3(lid.spheres.at(0).x, lid.spheres.at(0).y, lid.spheres.at(0).z).isApprox(there, 1e-12));
+  const std::string lid_on_cup =
+      "    - {link_name: arm, object: {id: lid, header: {frame_id: cup}, primitives: [{type: sphere, dimensions: "
+      "[0.1]}], "
+      "primitive_poses: [{}]}}\nworld:";
+  const Vec3 on_arm = read(with(scene_text, "world:", lid_on_cup)).arm->attached.at(1).solid.pose.translation();
+  EXPECT_TRUE(on_arm.isApprox(Vec3(0, 0, 1.1), 1e-12));
+  EXPECT_TRUE(read(with(ball_text("cup"), "id: can", "id: cup")).spheres.at(0).z > 2.0) << "not the standing one";
+  expect_refused(with_cup("subframe_poses: [{}]"), "a.yaml:20: `subframe_poses` must have as many items");
+  expect_refused(without_turn(ball_text("cup")), "a.yaml:36: this frame moves with joint turn; the scene's");
+  frames_.robot.reset();
+  expect_refused(ball_text("cup"), "a.yaml:36: nobody says where this frame is");
+}
+
+/// The SRDF's virtual joint has the root somewhere in the world.
+class MoveItBase : public MoveItFrame {
+ protected:
+  MoveItBase() { frames_.robot->srdf = srdf("floating"); }
+  std::string srdf(const std::string& kind) const {
+    return directory_.write("post.srdf", R"(<robot name="r"><virtual_joint name="stand" type=")" + kind +
+                                             R"(" parent_frame="odom" child_link="base"/></robot>)");
+  }
+  static std::string state(const std::string& place, const std::string& header = "odom",
+                           const std::string& joint = "stand") {
+    return "multi_dof_joint_state: {header: {frame_id: " + header + "}, joint_names: [" + joint +
+           "], transforms: [{translation: " + place + "}]}";
+  }
+  static std::string standing(const std::string& text, const std::string& state) {
+    return with(text, "robot_state:", "robot_state:\n  " + state);
+  }
+  static constexpr const char* turned = "[0, 2, 0], rotation: [0, 0, 1, 1]";
+
+  const Eigen::Isometry3d base_ =
+      Eigen::Translation3d(0, 2, 0) * Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitZ());
+};
+
+TEST_F(MoveItBase, IsWhereTheVirtualJointHasIt) {
+  const auto ball = [&](const std::string& frame, const std::string& more = "") {
+    const Sphere found = read(standing(ball_text(frame), state(turned)) + more).spheres.at(0);
+    return Vec3(found.x, found.y, found.z);
+  };
+  for (const std::string world : {"\"\"", "world", "odom"}) EXPECT_EQ(ball(world), Vec3(3, 2, 1)) << world;
+  EXPECT_TRUE(ball("base").isApprox(base_ * Vec3(3, 2, 1), 1e-12));
+  EXPECT_TRUE(ball("post").isApprox(base_ * Vec3(-1, 3, 1), 1e-12));
+  const std::string fixed = "fixed_frame_transforms: [{header: {frame_id: table}, child_frame_id: ";
+  const std::string up = ", transform: {translation: [0, 0, 1]}}]";
+  EXPECT_EQ(ball("table", fixed + "odom" + up), Vec3(3, 2, 2));
+  for (const std::string& other : {fixed + "base" + up, fixed + "base, transform: {}}]"})
+    expect_refused(standing(ball_text("world"), state(turned)) + other, "which must be the world's");
+}
+
+/// The arm stands there, and a scene's text says it, too. The robot's own word goes before.
+TEST_F(MoveItBase, MovesTheWholeRobot) {
+  Scene scene = read(standing(scene_text, state(turned)));
+  std::string text;
+  write_scene_text(scene, [&](std::string_view part) { text += part; }, {});
+  EXPECT_NE(text.find("\nbase-pose 0 2 0 0 0 1 1\n"), std::string::npos) << text;
+  const Scene back = read_scene(InputFile::of_bytes("a.scene", text), {});
+  const RobotSpec robot{.kind = RobotKind::urdf, .files = ArmFiles{.urdf = frames_.robot->urdf, .tool = "hand"}};
+  const ArmModel plain = read_urdf(*robot.files, {});
+  const ArmModel model = read_urdf(*with_what_is_said(robot, back).files, {});
+  EXPECT_EQ(model.base, Vec3(0, 2, 0));
+  EXPECT_TRUE(model.joints[0].origin.isApprox(base_ * plain.joints[0].origin, 1e-12));
+  EXPECT_TRUE(model.joints[1].origin.isApprox(plain.joints[1].origin, 1e-12)) << "hangs on the first";
+  EXPECT_TRUE(without_what_is_said(with_what_is_said(robot, back), back).files->base_pose == std::nullopt);
+  RobotSpec own = robot;
+  own.files->base_pose = {1, 0, 0, 0, 0, 0, 1};
+  EXPECT_EQ(with_what_is_said(own, back).files->base_pose, own.files->base_pose);
+}
+
+/// What stands in the world stays there, whatever a request says of the robot.
+TEST_F(MoveItBase, IsWhereTheRequestHasIt) {
+  const auto taken = [&](const std::string& start, const std::string& frame) {
+    Scene scene = read(standing(ball_text("base"), state(turned)));
+    take_moveit_request(scene,
+                        file_of("start_state: {" + start +
+                                "}\ngoal_constraints:\n- position_constraints: [{header: {frame_id: " + frame +
+                                "}, constraint_region: {primitive_poses: [{position: [1, 2, 3]}]}}]\n"),
+                        {}, frames_);
+    EXPECT_TRUE(
+        Vec3(scene.spheres[0].x, scene.spheres[0].y, scene.spheres[0].z).isApprox(base_ * Vec3(3, 2, 1), 1e-12));
+    return scene;
+  };
+  const auto goal = [](const Scene& scene) { return Vec3(scene.goal[0], scene.goal[1], scene.goal[2]); };
+  EXPECT_TRUE(goal(taken("", "base")).isApprox(base_ * Vec3(1, 2, 3), 1e-12));
+  EXPECT_EQ(goal(taken("", "odom")), Vec3(1, 2, 3));
+  const Scene moved = taken(state("[5, 0, 0]"), "base");
+  EXPECT_EQ(goal(moved), Vec3(6, 2, 3));
+  EXPECT_EQ(moved.arm->base_pose->at(0), 5.0);
+  EXPECT_EQ(goal(taken(state("[0, 0, 0]"), "base")), Vec3(1, 2, 3)) << "back at the origin";
+}
+
+TEST_F(MoveItBase, RefusesWhatCannotStandSo) {
+  const std::string far = standing(scene_text, state("[0, 0, 1]"));
+  EXPECT_NO_THROW(read(far));
+  expect_refused(standing(scene_text, state(turned, "base")), "a.yaml:13: the robot's root is placed in the frame of");
+  const std::string unnamed = "a.yaml:13: only the SRDF's virtual joint, by its name in `joint_names`";
+  expect_refused(standing(scene_text, state(turned, "odom", "turn")), unnamed);
+  expect_refused(standing(scene_text, state(turned, "odom", "")), unnamed);
+  EXPECT_NO_THROW(read(standing(scene_text, state("[0, 0, 0]", "odom", "turn"))));
+  srdf("planar");
+  EXPECT_NO_THROW(read(standing(scene_text, state(turned))));
+  expect_refused(far, "a.yaml:13: joint stand is planar in the SRDF");
+  expect_refused(standing(scene_text, state("[0, 0, 0], rotation: [1, 0, 0, 1]")), "joint stand is planar in the SRDF");
+  srdf("fixed");
+  expect_refused(standing(scene_text, state(turned)), "a.yaml:13: joint stand is fixed in the SRDF");
+  frames_.robot->srdf.clear();
+  expect_refused(far, unnamed);
+  frames_.robot.reset();
+  expect_refused(far, unnamed);
 }
 
 /// What the scene names its request knows, too; a goal in the frame of a link that moves would move with it.
@@ -316,7 +440,7 @@ TEST_F(MoveItFrame, OfAGoalStandsStill) {
   EXPECT_TRUE((goal.linear() * Vec3::UnitX()).isApprox(Vec3::UnitY(), 1e-12));
   for (const auto& ends : {std::pair("palm", "base"), {"base", "palm"}}) {
     const std::string said = test::refusal<InputError>([&] { goal_in(ends.first, ends.second); });
-    EXPECT_NE(said.find("this link moves with joint slide; give the goal in a frame"), std::string::npos) << said;
+    EXPECT_NE(said.find("this frame moves with joint slide; give the goal in a frame"), std::string::npos) << said;
   }
 }
 

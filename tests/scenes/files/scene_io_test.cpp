@@ -105,6 +105,8 @@ TEST(SceneText, ReadsAnArmThatFilesDescribe) {
   EXPECT_EQ(words,
             "urdf a/b.urdf srdf c.srdf group g package-path p package-path q hold k 2 hold j -0.5 allow u v allow x y");
   EXPECT_EQ(read(directory, "robot urdf a.urdf base x tip y\n0 0 1 1\n").robot->files->tip, "y");
+  const std::string stands = "robot urdf a.urdf base-pose 1 0 -2 0 0.5 0 1 hold k 2";
+  EXPECT_EQ("robot " + robot_text(*read(directory, stands + "\nbase-pose 1 0 -2 0 0.5 0 1\n").robot), stands);
 }
 
 TEST(SceneText, TakesWallsAsTheyAre) {
@@ -239,6 +241,14 @@ TEST(SceneText, RefusesBadInputInOneLineThatNamesFileAndLine) {
       {"a joint twice", "robot urdf a\nhold j 1\nhold j 2\n", ":3: `hold`: this joint is held already (found: j)"},
       {"too much of a joint", "robot urdf a\nhold j 1 2\n", ":2: expected `hold JOINT VALUE` (found: 2)"},
       {"a link alone", "robot urdf a\nallow x\n", ":2: expected `allow LINK LINK` (found: too few words)"},
+      {"a base without a turn", "base-pose 1 2 3\n", ":1: expected `base-pose X Y Z QX QY QZ QW` (found: too few"},
+      {"a base of no turn", "base-pose 1 2 3 0 0 0 0\n", ":1: `base-pose`: the quaternion QX QY QZ QW must not be"},
+      {"a base of words", "robot urdf a base-pose x\n", ":1: expected `base-pose X Y Z QX QY QZ QW` (found: x)"},
+      {"two bases", "robot urdf a base-pose 1 0 0 0 0 0 1\nbase-pose 2 0 0 0 0 0 1\n",
+       ":2: `base-pose` says another thing than the robot's line 1"},
+      {"a base twice", "robot urdf a base-pose 1 0 0 0 0 0 1 base-pose 1 0 0 0 0 0 1\n",
+       ":1: expected `robot urdf FILE"},
+      {"a base of a disc", "robot disc 1\nbase-pose 1 0 0 0 0 0 1\n", ":2: `base-pose` takes a `robot urdf`"},
       {"three numbers", "0 0 1 1\n1 2 3\n", ":2: expected `wall X1 Y1 X2 Y2` (found: 3 numbers)"},
       {"one number", "17", ":1: expected `wall X1 Y1 X2 Y2` (found: 1 number)"},
       {"five numbers", "1 2 3 4 5\n", ":1: expected `wall X1 Y1 X2 Y2` (found: 5 numbers)"},
