@@ -282,8 +282,8 @@ std::string csv_row(const Comparison& comparison, const Contender& c) {
   const bool is_graph = !problem.kind.empty();
   std::vector<std::string> fields;
   const auto add = [&](const auto&... values) { (fields.push_back(fmt::format("{}", values)), ...); };
-  const auto add_of = [&](const std::optional<D>& d, auto... figures) {
-    (fields.push_back(d ? fmt::format("{}", (*d).*figures) : std::string{}), ...);
+  const auto add_of = [&](const auto& known, auto... figures) {
+    (fields.push_back(known ? fmt::format("{}", (*known).*figures) : std::string{}), ...);
   };
   add(problem.source, known(is_graph, problem.vertices), known(is_graph, problem.edges), c.planner, c.search, c.queue,
       c.library, options_text(c), row.runs, row.solved, row.success.low, row.success.high);
@@ -292,8 +292,7 @@ std::string csv_row(const Comparison& comparison, const Contender& c) {
   add_of(row.expanded, &D::median);
   add_of(row.min_clearance, &D::median);
   add_of(row.time_s, &D::median, &D::q1, &D::q3, &D::mean);
-  const std::optional<Interval> mean = row.time_s ? row.time_s->mean_ci95 : std::nullopt;
-  add(known(mean.has_value(), mean.value_or(Interval()).low), known(mean.has_value(), mean.value_or(Interval()).high));
+  add_of(row.time_s ? row.time_s->mean_ci95 : std::nullopt, &Interval::low, &Interval::high);
   add_of(row.cells, &D::median);
   add_of(row.turn_rad, &D::median);
   add(known(!is_graph, c.deterministic));

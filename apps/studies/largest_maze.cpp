@@ -283,15 +283,12 @@ void line(std::string& text, const Palette& palette, std::string_view name, cons
   text += fmt::format("  {}{}\n", palette.faint(fmt::format("{:<14}", name)), what);
 }
 
-bool by_seconds(const MazeTrial& a, const MazeTrial& b) { return a.solve_s < b.solve_s; }
-
 /// The run of median solve_s (the upper one of two). best is not empty.
 const MazeTrial& median_trial(const LargestResult& result) {
   std::vector<const MazeTrial*> runs;
   for (const MazeTrial& t : result.best) runs.push_back(&t);
   const auto middle = runs.begin() + static_cast<std::ptrdiff_t>(runs.size() / 2);
-  std::nth_element(runs.begin(), middle, runs.end(),
-                   [](const MazeTrial* a, const MazeTrial* b) { return by_seconds(*a, *b); });
+  std::ranges::nth_element(runs, middle, {}, &MazeTrial::solve_s);
   return **middle;
 }
 
@@ -312,7 +309,7 @@ std::string headline(const LargestOptions& options, const LargestResult& result,
 /// Of the largest size: what was solved, how fast, with how much memory; and the bar. There is one.
 void add_best(std::string& text, const LargestOptions& options, const LargestResult& result, const Palette& palette) {
   const MazeTrial& median = median_trial(result);
-  const auto [fastest, slowest] = std::minmax_element(result.best.begin(), result.best.end(), by_seconds);
+  const auto [fastest, slowest] = std::ranges::minmax_element(result.best, {}, &MazeTrial::solve_s);
   const double loops = options.maze.loops;
   line(text, palette, "size",
        fmt::format("{} cells, {} mazes, {}", grouped(static_cast<std::uint64_t>(median.cells())),
@@ -375,7 +372,7 @@ void add_limit(std::string& text, const LargestOptions& options, const LargestRe
 void add_figures(Json& json, const LargestResult& result) {
   if (result.best.empty()) return;
   const MazeTrial& median = median_trial(result);
-  const auto [fastest, slowest] = std::minmax_element(result.best.begin(), result.best.end(), by_seconds);
+  const auto [fastest, slowest] = std::ranges::minmax_element(result.best, {}, &MazeTrial::solve_s);
   json["confirmed"] = result.confirmed;
   json["seeds"] = Json::array();
   for (const MazeTrial& t : result.best) json["seeds"].push_back(t.seed);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <filesystem>
 #include <limits>
 #include <map>
 #include <set>
@@ -54,9 +55,8 @@ std::vector<std::string> figure_files(const std::string& file, const std::vector
 
 /// "a" of "a/b.svg"; "." of "b.svg".
 std::string folder_of(const std::string& path) {
-  const std::size_t slash = path.rfind('/');
-  if (slash == std::string::npos) return ".";
-  return slash == 0 ? "/" : path.substr(0, slash);
+  const std::string folder = std::filesystem::path(path).parent_path();
+  return folder.empty() ? "." : folder;
 }
 
 /// Throws UsageError where the file's ending is none of `endings`, such as ".svg .png". Standard output and devices
@@ -286,14 +286,10 @@ void check_not_written(const Arguments& arguments, const std::string& input) {
   }
 }
 
-void check_not_written(const Arguments& arguments, const std::optional<RobotSpec>& robot) {
-  if (!robot) return;
-  check_not_written(arguments, robot->table);
-  if (!robot->files) return;
-  for (const std::string& file : {robot->files->urdf, robot->files->srdf}) check_not_written(arguments, file);
-}
-
-void check_not_written(const Arguments& arguments, const Prices& prices) {
+void check_not_written(const Arguments& arguments, const std::optional<RobotSpec>& robot, const Prices& prices) {
+  if (robot) check_not_written(arguments, robot->table);
+  const ArmFiles files = robot ? robot->files.value_or(ArmFiles{}) : ArmFiles{};
+  for (const std::string& file : {files.urdf, files.srdf}) check_not_written(arguments, file);
   for (const PriceMask& mask : prices.masks) {
     check_not_written(arguments, mask.file);
     if (mask.read) check_not_written(arguments, mask.read->image);

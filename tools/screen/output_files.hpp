@@ -54,9 +54,7 @@ void check_outputs(const Arguments& arguments);
 
 /// The same for a file that the command line does not name such as a map's image. Empty: no file.
 void check_not_written(const Arguments& arguments, const std::string& input);
-/// The same for an arm's table, or its URDF and SRDF.
-void check_not_written(const Arguments& arguments, const std::optional<RobotSpec>& robot);
-/// The same of the masks, and of the images of those that have been read.
-void check_not_written(const Arguments& arguments, const Prices& prices);
+/// The same for an arm's table, or its URDF and SRDF, and for masks and the images of those that have been read.
+void check_not_written(const Arguments& arguments, const std::optional<RobotSpec>& robot, const Prices& prices = {});
 
 }  // namespace warren::tools

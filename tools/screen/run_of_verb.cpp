@@ -12,12 +12,9 @@
 #include <limits>
 
 #include "core/base/printable.hpp"
-<<<<<<< HEAD
-=======
 #include "parallel/once.hpp"
 #include "parallel/ticker.hpp"
 #include "pictures/answer_summary.hpp"
->>>>>>> b7b32cde (The progress bar has one user and stands with it: how a verb runs)
 #include "scenes/text/output_file_io.hpp"
 #include "solve/question/limits.hpp"
 #include "tools/screen/output_files.hpp"

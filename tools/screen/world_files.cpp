@@ -144,8 +144,7 @@ Scene load_world(const InputFile& file, const Arguments& arguments, const Execut
     take_moveit_request(scene, InputFile(*name, execution), execution, frames);
     refuse_another_robot(before, scene, arguments);
   }
-  check_not_written(arguments, scene.robot);
-  check_not_written(arguments, scene.prices);
+  check_not_written(arguments, scene.robot, scene.prices);
   return scene;
 }
 
@@ -247,9 +246,9 @@ int draw_roadmap(const Arguments& arguments, const std::string& file, const Pict
 }
 
 void read_asked_files(Question& question, const Arguments& arguments, const Execution& execution) {
-  check_not_written(arguments, question.prices);
+  check_not_written(arguments, {}, question.prices);
   read_masks(question.prices, execution);
-  check_not_written(arguments, question.prices);
+  check_not_written(arguments, {}, question.prices);
   const auto old = arguments.value("--keep-to");
   if (!old) return;
   check_not_written(arguments, *old);

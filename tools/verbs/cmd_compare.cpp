@@ -217,8 +217,7 @@ studies::PlannerDeal deal_words(const Arguments& arguments, std::vector<PlannerK
   const Arguments shared = arguments.without(taken);
   deal.question = question_words(shared);
   deal.common = solve_words(shared);
-  check_not_written(arguments, deal.question.robot);
-  check_not_written(arguments, deal.question.prices);
+  check_not_written(arguments, deal.question.robot, deal.question.prices);
   return deal;
 }
 

@@ -47,8 +47,7 @@ class SolveCommand : public AnswerCommand {
       : AnswerCommand(arguments, "--save-roadmap"),
         question_(question_words(arguments)),
         options_(solve_words(arguments)) {
-    check_not_written(arguments, question_.robot);
-    check_not_written(arguments, question_.prices);
+    check_not_written(arguments, question_.robot, question_.prices);
     check_solver_options(options_);
   }
 

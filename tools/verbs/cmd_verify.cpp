@@ -71,8 +71,7 @@ int verify_answer(const Arguments& arguments) {
                                  arguments.operand(0)));
   }
   Question question = question_words(arguments);
-  check_not_written(arguments, question.robot);
-  check_not_written(arguments, question.prices);
+  check_not_written(arguments, question.robot, question.prices);
   Run run(arguments);
   RecordedAnswer answer = read_answer(arguments.operand(1), run.execution());
   read_asked_files(question.prices.empty() ? answer.problem : question, arguments, run.execution());
