@@ -2,7 +2,9 @@
 // A planner that gets better until it is stopped. Parts take turns: an RRT* tree (planners/trees/rrt_star), restarts of
 // RRT-Connect inside the cost of the best path, lazy roadmaps of doubling size, and the body's shortener. No part is
 // best everywhere: restarts are in the open, the roadmap in mazes, the tree where it is narrow; the shortener makes
-// something of the variety that they find.
+// something of the variety that they find. Where it finds the shortest path of a homotopy class (points and discs in
+// the plane), only classes count: then roadmaps, whose paths are in near ones, have most of the work, and a path is
+// pulled taut in the turn that found it.
 //
 // Work is counted, not timed: a state check is 1, an edge check 4, each neighbour that a query gives 1. A turn is a
 // list of tasks with fixed numbers, each a function of what was known when the turn began; they run on as many threads
@@ -116,6 +118,7 @@ class AnytimeSearch {
         body_(body),
         execution_(execution),
         step_(options.trees.step ? *options.trees.step : usual_step(world)),
+        pulls_taut_(!body.draws && options.parts.shorten),
         restart_options_(options.trees) {
     constexpr std::size_t uncounted = 16;  // of so many bytes one is for paths, and for what is given back late
     if (execution.deadline != nullptr) room_ = execution.deadline->room();
@@ -139,15 +142,18 @@ class AnytimeSearch {
     const std::optional<StopReason> stop = stopped_by([&] {
       const StageTimer timer(execution_, "search", solution_.seconds.search);
       while (!has_path() && !is_ended()) take_turn(execution_);
-      if (has_path() && !is_straight_ && body_.lower_bound) {
-        solution_.lower_bound = std::max(solution_.lower_bound, body_.lower_bound());
-      }
+      if (!pulls_taut_ || options_.gap) ask_bound();
       const std::size_t kept_back = bytes_of_the_judge();
       const Deadline sooner(execution_.deadline, seconds_before_the_judge(), kept_back);
       room_ -= std::min(room_, kept_back);
       Execution within = execution_;
       if (execution_.deadline != nullptr) within.deadline = &sooner;
-      while (!is_ended()) take_turn(within);
+      for (int turns = 1; !is_ended(); ++turns) {
+        take_turn(within);
+        if (turns == turns_before_bound) ask_bound();
+      }
+      ask_bound();
+      is_ended();  // by the bound, maybe
     });
     if (stop) {
       solution_.ended_by = name_of(*stop);
@@ -166,6 +172,9 @@ class AnytimeSearch {
   static constexpr double near = 1.05;     // nor any more what won't come so near it
   static constexpr int patience = 10;      // turns without luck after which a part gets half
   static constexpr int most_dull = 3;      // polishings without gain in a row, after which none is tried
+  // Where only classes count:
+  static constexpr std::uint64_t roadmap_shares = 8;
+  static constexpr int turns_before_bound = 8;  // with a path: a proof takes as long as a good one
 
   enum class Part : std::uint8_t { tree, restarts, roadmap, shorten };
   struct Found {
@@ -196,6 +205,11 @@ class AnytimeSearch {
   std::size_t bytes_of_the_judge() const {
     constexpr std::size_t a_state = 512;
     return has_path() ? body_.judge_bytes + a_state * solution_.path.size() : 0;
+  }
+  /// Once there is a path, and once only.
+  void ask_bound() {
+    if (!has_path() || is_straight_ || !body_.lower_bound || std::exchange(has_bound_, true)) return;
+    solution_.lower_bound = std::max(solution_.lower_bound, body_.lower_bound());
   }
   bool end(std::string_view why) {
     solution_.ended_by = why;
@@ -273,7 +287,10 @@ class AnytimeSearch {
       });
     }
     std::vector<Found> found(tasks.size());
-    for_chunks(tasks.size(), 1, execution, [&](Range r) { found[r.first] = tasks[r.first](alone); });
+    for_chunks(tasks.size(), 1, execution, [&](Range r) {
+      found[r.first] = tasks[r.first](alone);
+      if (pulls_taut_ && has_path()) pull_at_once(found[r.first], alone);
+    });
     return found;
   }
 
@@ -395,7 +412,7 @@ class AnytimeSearch {
   Found draw_roadmap(const Execution& execution) {
     constexpr std::uint64_t first_samples = 50;
     constexpr std::uint64_t most_doublings = 20;
-    constexpr std::uint64_t least_credit = 1'000;  // what the first may well take: trees often arrive before
+    const std::uint64_t least_credit = pulls_taut_ ? 0 : 1'000;  // what the first may take: trees often arrive before
     Found found(Part::roadmap);
     credit_ += share_of(Part::roadmap);
     if (credit_ < std::max(least_credit, 2 * roadmap_work_)) return found;
@@ -430,9 +447,16 @@ class AnytimeSearch {
     found.cost = cost_of(found.path);
     return found;
   }
+  void pull_at_once(Found& found, const Execution& execution) const {
+    if (found.is_shortened || !(found.cost < hopeless * solution_.cost)) return;
+    Found taut = shortened(found.by, found.path, near * solution_.cost, 0, execution);
+    taut.counters += found.counters;
+    found = std::move(taut);
+  }
 
   std::uint64_t share_of(Part part) const {
-    return (is_alone() ? 4 : 1) * share_ / (idle_[index_of(part)] >= patience ? 2 : 1);
+    const std::uint64_t shares = is_alone() ? 4 : pulls_taut_ && part == Part::roadmap ? roadmap_shares : 1;
+    return shares * share_ / (idle_[index_of(part)] >= patience ? 2 : 1);
   }
   std::uint64_t restart_share() const { return share_of(Part::restarts) / (has_path() ? restart_count : 1); }
   /// A tree by itself has the turns of all, and never had to let others come first.
@@ -446,14 +470,16 @@ class AnytimeSearch {
   const AnytimeBody<State>& body_;
   const Execution& execution_;
   const double step_;
+  const bool pulls_taut_;  // is what the shortener makes the shortest of its class, so that only classes count?
   RrtOptions restart_options_;
   /// Bytes that trees and roadmaps may take.
   std::size_t room_ = std::numeric_limits<std::size_t>::max();
 
   AnytimeSolution<State> solution_;
   std::vector<Path<State>> to_join_;  // the tree has yet to take them
-  std::vector<Found> rough_;   // paths that are to be shortened in the next turn, since they may come to something
-  bool is_straight_ = false;   // the best path is one motion to the nearest of all goals
+  std::vector<Found> rough_;  // paths that are to be shortened in the next turn, since they may come to something
+  bool is_straight_ = false;  // the best path is one motion to the nearest of all goals
+  bool has_bound_ = false;
   bool is_enough_ = false;     // whoever is told says so
   bool is_shortened_ = false;  // is the best path one that the shortener made?
   bool was_replaced_ = false;  // the best path is of this turn
