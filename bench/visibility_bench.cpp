@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "core/plane/geometry.hpp"
-#include "core/search/search_queues.hpp"
 #include "planners/visibility/visibility_graph.hpp"
 #include "planners/visibility/visibility_path.hpp"
 #include "scenes/files/scene_io.hpp"
@@ -93,14 +92,9 @@ void time_search(benchmark::State& state, const World& world, VisibilityEdges ed
   const VisibilityGraph visibility(corners, edges, {});
   const VisibilityLinks links = visibility.link(world.start, world.goal, {});
   SearchState search;
-  IndexedHeap<4> queue;
-  queue.resize(visibility.size() + 2);
   std::uint64_t settled = 0;
-  for (auto _ : state) {
-    search.resize(visibility.size() + 2);
-    queue.clear();
-    settled = visibility.search(links, informed, queue, search).expanded;
-  }
+  const SearchKind kind = informed ? SearchKind::astar : SearchKind::dijkstra;
+  for (auto _ : state) settled = visibility.search(links, kind, QueueKind::heap, search, {}).expanded;
   state.counters["settled"] = static_cast<double>(settled);
 }
 

@@ -146,14 +146,9 @@ struct PoseTask {
     if constexpr (std::is_same_v<Kind, Turning>) {
       return verify_se2(scene, robot.outline, path, verify_options(problem), one_thread());
     } else {
-      const bool reverses = robot.steering == SteeringKind::reeds_shepp;
-      const VerifiedCar car{.turning_radius = robot.turning_radius,
-                            .reverses = reverses,
-                            .radius = robot.radius,
-                            .outline = robot.outline};
       std::vector<Se2> legs = {path.front()};
       for (std::size_t i = 1; i < path.size(); ++i) append_joints(legs, world.curve(path[i - 1], path[i]));
-      return verify_car(scene, car, legs, verify_options(problem), one_thread());
+      return verify_car(scene, robot, legs, verify_options(problem), one_thread());
     }
   }
 };

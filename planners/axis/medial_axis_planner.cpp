@@ -14,7 +14,6 @@
 #include "core/plane/wall_set.hpp"
 #include "core/search/search.hpp"
 #include "core/search/union_find.hpp"
-#include "parallel/asked_memory.hpp"
 #include "parallel/sort.hpp"
 #include "planners/graph/assemble_graph.hpp"
 #include "planners/graph/components.hpp"

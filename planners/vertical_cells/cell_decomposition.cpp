@@ -372,17 +372,6 @@ class CellSweep {
   Node below_, above_;                            // the neighbours of all that; above_ may be the end
 };
 
-/// Sweeps, then looks where the points lie.
-CellDecomposition decomposed(const PlaneObstacles& obstacles, std::span<const Vec2> points, Overlaps overlaps,
-                             const Execution& execution) {
-  CellDecomposition cells = CellSweep(obstacles, points, overlaps, execution).run();
-  for (const Vec2 p : points) {
-    execution.check();
-    cells.places.push_back(locate(cells, obstacles, p));
-  }
-  return cells;
-}
-
 }  // namespace
 
 ObstacleClash::ObstacleClash(std::size_t obstacle, std::size_t other, std::size_t polygon_count)
@@ -412,15 +401,20 @@ Segment CellDecomposition::door_line(std::uint32_t door) const {
   return doors[door].above ? Segment{corner, far} : Segment{far, corner};
 }
 
-CellDecomposition decompose(const PlaneObstacles& obstacles, std::span<const Vec2> points, const Execution& execution) {
-  return decomposed(obstacles, points, Overlaps::refused, execution);
-}
-
-CellDecomposition decompose_united(const PlaneObstacles& obstacles, std::span<const Vec2> points,
-                                   const Execution& execution) {
-  assert(obstacles.walls.empty());
-  const PlaneObstacles united{node_polygons(framed(obstacles), execution).polygons, {}, std::nullopt};
-  return decomposed(united, points, Overlaps::united, execution);
+CellDecomposition decompose(const PlaneObstacles& given, std::span<const Vec2> points, const Execution& execution,
+                            Overlaps overlaps) {
+  PlaneObstacles united;
+  if (overlaps == Overlaps::united) {
+    assert(given.walls.empty());
+    united.polygons = node_polygons(framed(given), execution).polygons;
+  }
+  const PlaneObstacles& obstacles = overlaps == Overlaps::united ? united : given;
+  CellDecomposition cells = CellSweep(obstacles, points, overlaps, execution).run();
+  for (const Vec2 p : points) {
+    execution.check();
+    cells.places.push_back(locate(cells, obstacles, p));
+  }
+  return cells;
 }
 
 CellPlace locate(const CellDecomposition& cells, const PlaneObstacles& obstacles, Vec2 p) {

@@ -45,8 +45,7 @@ class ObstacleClash : public InputError {
   std::size_t other_;
 };
 
-/// What the sweep does where polygons overlap; to be united they must share nothing but corners
-/// (planners/visibility/noding).
+/// What the sweep does where polygons overlap.
 enum class Overlaps : std::uint8_t { refused, united };
 
 /// In place of a cell, a corner, a door or a polygon.
@@ -111,13 +110,12 @@ struct CellDecomposition {
 /// Decomposes the free part of the bounds; without bounds, of the obstacles' box; without obstacles, of the points'
 /// box. Then locates the points. Polygons and walls outside the bounds are left out; walls of length zero too.
 /// Throws ObstacleClash; InputError for 2^31 corners and more; Stopped at the deadline.
-CellDecomposition decompose(const PlaneObstacles& obstacles, std::span<const Vec2> points, const Execution& execution);
-
-/// The same around the union of polygons that may overlap and reach out of the bounds; there are no walls. Corners are
-/// rounded by so little (planners/visibility/noding.hpp), hence for obstacles that were grown by more. The bounds
-/// are made a frame of four polygons. Never throws ObstacleClash.
-CellDecomposition decompose_united(const PlaneObstacles& obstacles, std::span<const Vec2> points,
-                                   const Execution& execution);
+///
+/// united: around the union of polygons that may overlap and reach out of the bounds; there are no walls. Corners are
+/// rounded by so little that they share nothing but corners (planners/visibility/noding.hpp), hence for obstacles that
+/// were grown by more. The bounds are made a frame of four polygons. Never throws ObstacleClash.
+CellDecomposition decompose(const PlaneObstacles& obstacles, std::span<const Vec2> points, const Execution& execution,
+                            Overlaps overlaps = Overlaps::refused);
 
 /// Where a point lies among vertical cells. Every decision is exact. O(cells + corners), a comparison or two for most
 /// of them. `cells` are those of decompose() for the same obstacles.

@@ -164,8 +164,7 @@ class CellPlanning {
   void decompose_plane(const PlaneObstacles& obstacles) {
     const StageTimer timer(execution_, "cells", solution_.seconds.graph, obstacles.polygons.corners.size());
     const std::array<Vec2, 2> ends{start_, goal_};
-    plan_.cells = options_.overlaps == Overlaps::united ? decompose_united(obstacles, ends, execution_)
-                                                        : decompose(obstacles, ends, execution_);
+    plan_.cells = decompose(obstacles, ends, execution_, options_.overlaps);
     cells_ = &plan_.cells;
   }
   bool ends_are_blocked() {

@@ -69,7 +69,7 @@ struct CellOptions {
   DoorKind doors = DoorKind::midpoint;    ///< where they are passed
   SearchKind search = SearchKind::astar;  ///< over the doors
   QueueKind queue = QueueKind::heap;      ///< of astar and dijkstra
-  Overlaps overlaps = Overlaps::refused;  ///< united: decompose_united()
+  Overlaps overlaps = Overlaps::refused;  ///< as decompose() takes them
 };
 
 /// What a plan leaves to be drawn or counted.

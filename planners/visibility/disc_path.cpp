@@ -64,46 +64,22 @@ class NearSegments {
   template <class Visit>
   bool for_each(const Segment& s, double within, const Visit& visit) {
     const SegmentGrid& grid = ground_.grid;
-    const Box box = box_of(s).grown(within);
-    if (ground_.segments.empty() || !box.meets(grid.box())) return true;
+    if (ground_.segments.empty() || !box_of(s).grown(within).meets(grid.box())) return true;
     if (++now_ == 0) {
       std::fill(epoch_.begin(), epoch_.end(), 0U);
       now_ = 1;
     }
-    const std::uint32_t last = cell(box.max).row;
-    for (std::uint32_t row = cell(box.min).row; row <= last; ++row) {
-      const auto [low, high] = span_in(s, grid.y_line(row) - within, grid.y_line(row + 1) + within);
-      const std::uint32_t end = cell({high + within, s.a.y}).col;
-      for (std::uint32_t col = cell({low - within, s.a.y}).col; col <= end; ++col) {
-        for (const std::uint32_t number : grid.in_cell({col, row})) {
-          if (epoch_[number] == now_) continue;
-          epoch_[number] = now_;
-          if (!visit(number)) return false;
-        }
+    return grid.for_each_cell_near(s, within, [&](SegmentGrid::Cell cell) {
+      for (const std::uint32_t number : grid.in_cell(cell)) {
+        if (epoch_[number] == now_) continue;
+        epoch_[number] = now_;
+        if (!visit(number)) return false;
       }
-    }
-    return true;
+      return true;
+    });
   }
 
  private:
-  SegmentGrid::Cell cell(Vec2 p) const {
-    const Box box = ground_.grid.box();
-    return ground_.grid.cell_of({std::clamp(p.x, box.min.x, box.max.x), std::clamp(p.y, box.min.y, box.max.y)});
-  }
-  /// The least and the largest x that s takes where its y is between these.
-  static std::pair<double, double> span_in(const Segment& s, double y_low, double y_high) {
-    const Vec2 low = s.a.y <= s.b.y ? s.a : s.b;
-    const Vec2 high = s.a.y <= s.b.y ? s.b : s.a;
-    const double rise = high.y - low.y;
-    const auto x_at = [&](double y) {
-      const double share = rise > 0.0 ? std::clamp((y - low.y) / rise, 0.0, 1.0) : y > low.y ? 1.0 : 0.0;
-      return low.x + share * (high.x - low.x);
-    };
-    const double x0 = x_at(y_low);
-    const double x1 = x_at(y_high);
-    return {std::min(x0, x1), std::max(x0, x1)};
-  }
-
   const DiscGround& ground_;
   std::vector<std::uint32_t> epoch_;
   std::uint32_t now_ = 0;

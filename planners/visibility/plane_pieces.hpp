@@ -21,7 +21,6 @@
 #include "core/base/types.hpp"
 #include "core/plane/polygon.hpp"
 #include "core/run/execution.hpp"
-#include "core/search/graph.hpp"
 #include "spatial/obstacles/segment_grid.hpp"
 
 namespace warren {

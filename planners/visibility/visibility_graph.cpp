@@ -12,6 +12,7 @@
 #include "core/plane/geometry.hpp"
 #include "parallel/asked_memory.hpp"
 #include "parallel/chunks.hpp"
+#include "planners/graph/queue_choice.hpp"
 
 namespace warren {
 namespace {
@@ -273,6 +274,23 @@ Graph VisibilityGraph::joined(const VisibilityLinks& links, const Execution& exe
   if (links.direct) targets.push_back(start_vertex());
   offsets.push_back(static_cast<EdgeEnd>(targets.size()));
   return Graph(std::move(offsets), std::move(targets));
+}
+
+SearchResult VisibilityGraph::search(const VisibilityLinks& links, SearchKind search, QueueKind queue,
+                                     SearchState& state, const Execution& execution) const {
+  const VertexId n = start_vertex();
+  const auto neighbours = [&](VertexId v, const auto& visit) {
+    const Vec2 at = v == n ? links.start : positions_[v];
+    for (const VertexId w : v == n ? std::span<const VertexId>(links.from_start) : graph_.neighbours(v)) {
+      visit(w, distance(at, positions_[w]));
+    }
+    if (v == n ? links.direct : links.sees_goal[v] != 0) visit(n + 1, distance(at, links.goal));
+  };
+  const bool informed = search == SearchKind::astar;
+  const auto estimate = [&](VertexId v) {
+    return !informed || v > n ? 0.0 : distance(v == n ? links.start : positions_[v], links.goal);
+  };
+  return search_best_first(queue, size() + 2, n, n + 1, neighbours, estimate, state, execution);
 }
 
 std::vector<Edge> sampled_visibility(const PolygonIndex& polygons, Vec2 start, Vec2 goal, double step,

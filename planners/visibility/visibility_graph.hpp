@@ -29,6 +29,7 @@
 #include "core/run/execution.hpp"
 #include "core/search/graph.hpp"
 #include "core/search/search.hpp"
+#include "planners/graph/roadmap_options.hpp"
 #include "planners/visibility/plane_pieces.hpp"
 #include "planners/visibility/rotational_sweep.hpp"
 #include "spatial/obstacles/polygon_index.hpp"
@@ -144,24 +145,10 @@ class VisibilityGraph {
   /// The graph with start and goal as the last two vertices; O(vertices + edges). Throws Stopped.
   Graph joined(const VisibilityLinks& links, const Execution& execution) const;
 
-  /// A* (informed) or Dijkstra between start and goal without joining them to the graph. Queue and state are cleared
-  /// and sized for size() + 2 vertices.
-  template <class Queue, class ShouldStop = NeverStop>
-  SearchResult search(const VisibilityLinks& links, bool informed, Queue& queue, SearchState& state,
-                      const ShouldStop& should_stop = {}) const {
-    const auto n = start_vertex();
-    const auto neighbours = [&](VertexId v, const auto& visit) {
-      const Vec2 at = v == n ? links.start : positions_[v];
-      for (const VertexId w : v == n ? std::span<const VertexId>(links.from_start) : graph_.neighbours(v)) {
-        visit(w, distance(at, positions_[w]));
-      }
-      if (v == n ? links.direct : links.sees_goal[v] != 0) visit(n + 1, distance(at, links.goal));
-    };
-    const auto estimate = [&](VertexId v) {
-      return !informed || v > n ? 0.0 : distance(v == n ? links.start : positions_[v], links.goal);
-    };
-    return best_first(n, n + 1, neighbours, estimate, queue, state, should_stop);
-  }
+  /// A* or Dijkstra between start and goal without joining them to the graph. Whether it was stopped is in the result;
+  /// sizing the state throws Stopped.
+  SearchResult search(const VisibilityLinks& links, SearchKind search, QueueKind queue, SearchState& state,
+                      const Execution& execution) const;
 
  private:
   const VisibleCorners& corners_;

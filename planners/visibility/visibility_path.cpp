@@ -115,18 +115,10 @@ class VisibilityPlan {
     if (plain || keep_ != nullptr) roadmap_.graph = visibility.joined(links, execution_);
     const SearchResult found = plain ? search_blindly(options_.search, roadmap_.graph, visibility.start_vertex(),
                                                       visibility.goal_vertex(), state, execution_)
-                                     : search_best(visibility, links, state);
+                                     : visibility.search(links, options_.search, options_.queue, state, execution_);
     if (found.status == SearchStatus::exhausted) separate(visibility, visibility.joined(links, execution_));
     if (keep_ != nullptr) roadmap_.search_tree = search_tree(state);
     finish(visibility.positions(), found);
-  }
-
-  SearchResult search_best(const VisibilityGraph& visibility, const VisibilityLinks& links, SearchState& state) const {
-    state.resize(visibility.size() + 2, [&] { execution_.check(); });
-    return with_queue(options_.queue, visibility.size() + 2, execution_, [&](auto& queue) {
-      return visibility.search(links, options_.search == SearchKind::astar, queue, state,
-                               [&] { return execution_.should_stop(); });
-    });
   }
 
   void search_lazily(const VisibleCorners& corners) {

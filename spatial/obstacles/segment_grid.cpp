@@ -37,31 +37,8 @@ SegmentGrid::Cell SegmentGrid::cell_of(Vec2 p) const {
     while (i + 1 < count && line(i + 1) <= c) ++i;
     return i;
   };
-  return {settle(clamped((p.x - origin_.x) / cell_, cols_), cols_, p.x, [&](std::uint32_t i) { return x_line(i); }),
-          settle(clamped((p.y - origin_.y) / cell_, rows_), rows_, p.y, [&](std::uint32_t i) { return y_line(i); })};
-}
-
-template <class Visit>
-void SegmentGrid::for_each_cell_of(const Segment& s, const Visit& visit) const {
-  const Box box = box_of(s);
-  const std::uint32_t last_row = clamped((box.max.y + slack_ - origin_.y) / cell_, rows_);
-  const double dy = s.b.y - s.a.y;
-  for (std::uint32_t row = clamped((box.min.y - slack_ - origin_.y) / cell_, rows_); row <= last_row; ++row) {
-    double low = box.min.x;
-    double high = box.max.x;
-    if (dy != 0.0) {  // the part of the segment in this row, a slack wider
-      const double at_bottom = (std::clamp(y_line(row) - slack_, box.min.y, box.max.y) - s.a.y) / dy;
-      const double at_top = (std::clamp(y_line(row + 1) + slack_, box.min.y, box.max.y) - s.a.y) / dy;
-      const double x1 = s.a.x + at_bottom * (s.b.x - s.a.x);
-      const double x2 = s.a.x + at_top * (s.b.x - s.a.x);
-      low = std::max(low, std::min(x1, x2));
-      high = std::min(high, std::max(x1, x2));
-    }
-    const std::uint32_t last_col = clamped((high + slack_ - origin_.x) / cell_, cols_);
-    for (std::uint32_t col = clamped((low - slack_ - origin_.x) / cell_, cols_); col <= last_col; ++col) {
-      visit(index({col, row}));
-    }
-  }
+  return {settle(col_at(p.x), cols_, p.x, [&](std::uint32_t i) { return x_line(i); }),
+          settle(row_at(p.y), rows_, p.y, [&](std::uint32_t i) { return y_line(i); })};
 }
 
 SegmentGrid::SegmentGrid(std::span<const Segment> segments, const Execution& execution) {
@@ -75,9 +52,10 @@ SegmentGrid::SegmentGrid(std::span<const Segment> segments, const Execution& exe
     std::uint64_t listings = 0;
     for (std::size_t i = 0; i < segments.size() && (listings <= most_listings || cell_count() <= 64); ++i) {
       if (i % segments_per_poll == 0) execution.check();
-      for_each_cell_of(segments[i], [&](std::size_t cell) {
-        ++offsets_[cell];
+      for_each_cell_near(segments[i], slack_, [&](Cell cell) {
+        ++offsets_[index(cell)];
         ++listings;
+        return true;
       });
     }
     if (listings <= most_listings || cell_count() <= 64) break;
@@ -88,7 +66,10 @@ SegmentGrid::SegmentGrid(std::span<const Segment> segments, const Execution& exe
   segments_.resize(sum);
   for (std::size_t i = segments.size(); i-- > 0;) {  // from the last, so that each cell's list ascends
     if (i % segments_per_poll == 0) execution.check();
-    for_each_cell_of(segments[i], [&](std::size_t cell) { segments_[--offsets_[cell]] = as_whole<std::uint32_t>(i); });
+    for_each_cell_near(segments[i], slack_, [&](Cell cell) {
+      segments_[--offsets_[index(cell)]] = as_whole<std::uint32_t>(i);
+      return true;
+    });
   }
 }
 

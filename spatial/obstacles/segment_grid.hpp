@@ -6,6 +6,7 @@
 // never wrongly.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -45,6 +46,31 @@ class SegmentGrid {
     const std::size_t i = index(c);
     return {segments_.data() + offsets_[i], segments_.data() + offsets_[i + 1]};
   }
+  /// Calls visit(cell) for the cells that the segment comes as near to as `within` along both axes, and for some more,
+  /// until it returns false; whether it never did. What lies beyond the grid counts to its outermost cells.
+  template <class Visit>
+  bool for_each_cell_near(const Segment& s, double within, const Visit& visit) const {
+    const Box box = box_of(s);
+    const double dy = s.b.y - s.a.y;
+    const std::uint32_t last_row = row_at(box.max.y + within);
+    for (std::uint32_t row = row_at(box.min.y - within); row <= last_row; ++row) {
+      double low = box.min.x;
+      double high = box.max.x;
+      if (dy != 0.0) {  // the part of the segment in this row, so much wider
+        const double at_bottom = (std::clamp(y_line(row) - within, box.min.y, box.max.y) - s.a.y) / dy;
+        const double at_top = (std::clamp(y_line(row + 1) + within, box.min.y, box.max.y) - s.a.y) / dy;
+        const double x1 = s.a.x + at_bottom * (s.b.x - s.a.x);
+        const double x2 = s.a.x + at_top * (s.b.x - s.a.x);
+        low = std::max(low, std::min(x1, x2));
+        high = std::min(high, std::max(x1, x2));
+      }
+      const std::uint32_t last_col = col_at(high + within);
+      for (std::uint32_t col = col_at(low - within); col <= last_col; ++col) {
+        if (!visit(Cell{col, row})) return false;
+      }
+    }
+    return true;
+  }
   /// Calls visit(i, j) for segments i < j that are listed in one cell and whose boxes meet, some pairs more than once,
   /// until it returns false. segments: those that the grid is made of. Throws Stopped.
   template <class Visit>
@@ -66,11 +92,11 @@ class SegmentGrid {
  private:
   /// Sets origin, cell size and counts for so many segments in the box.
   void lay_out(const Box& box, std::size_t segments, double scale);
-  template <class Visit>
-  void for_each_cell_of(const Segment& s, const Visit& visit) const;
   std::uint32_t clamped(double at, std::uint32_t count) const {
     return bounded_whole<std::uint32_t>(at, 0.0, count - 1.0);
   }
+  std::uint32_t col_at(double x) const { return clamped((x - origin_.x) / cell_, cols_); }
+  std::uint32_t row_at(double y) const { return clamped((y - origin_.y) / cell_, rows_); }
 
   Vec2 origin_;
   double cell_ = 1.0;

@@ -8,10 +8,16 @@
 #pragma once
 
 #include <algorithm>
+#include <span>
 
 #include "core/base/types.hpp"
 
 namespace warren::exact {
+
+/// The side of an outline that begins at corner i.
+inline Segment outline_side(std::span<const Vec2> corners, std::size_t i) {
+  return {corners[i], corners[i + 1 == corners.size() ? 0 : i + 1]};
+}
 
 /// +1 when c lies left of the line a -> b, -1 right of it, 0 on it.
 int side_of(Vec2 a, Vec2 b, Vec2 c) noexcept;

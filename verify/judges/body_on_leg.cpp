@@ -22,10 +22,8 @@ Arc arc_of(const Leg& leg) {
 double distance_to(const std::vector<Vec2>& corners, const Segment& s) {
   if (outline_holds(corners, s.a, true)) return 0.0;  // exact signs, but the corners are rounded
   double least = infinity;
-  Vec2 a = corners.back();
-  for (const Vec2 b : corners) {
-    least = std::min(least, exact::distance({a, b}, s));
-    a = b;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    least = std::min(least, exact::distance(exact::outline_side(corners, i), s));
   }
   return least;
 }
@@ -33,11 +31,10 @@ double distance_to(const std::vector<Vec2>& corners, const Segment& s) {
 /// Where the body does not turn, it sweeps the bodies at both ends and a parallelogram a side.
 double distance_to_sweep(const std::vector<Vec2>& corners, Vec2 way, const Segment& s) {
   double least = distance_to(corners, s);
-  Vec2 a = corners.back();
-  for (const Vec2 b : corners) {
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const auto [a, b] = exact::outline_side(corners, i);
     const std::vector<Vec2> swept{a, b, b + way, a + way};
     least = std::min(least, distance_to(swept, s));
-    a = b;
   }
   return least;
 }
@@ -46,11 +43,10 @@ double distance_to_sweep(const std::vector<Vec2>& corners, Vec2 way, const Segme
 /// come nearest where one of these is.
 double distance_to_arcs(const std::vector<Vec2>& corners, const Arc& way, const Segment& s) {
   double least = distance_to(corners, s);
-  Vec2 a = corners.back();
-  for (const Vec2 b : corners) {
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const auto [a, b] = exact::outline_side(corners, i);
     least = std::min(least, distance(Arc{way.center, b, way.turn}, s));
     for (const Vec2 end : {s.a, s.b}) least = std::min(least, distance(Arc{way.center, end, -way.turn}, {a, b}));
-    a = b;
   }
   return least;
 }

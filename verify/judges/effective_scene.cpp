@@ -2,6 +2,7 @@
 #include "verify/judges/effective_scene.hpp"
 
 #include <algorithm>
+#include <bitset>
 #include <cmath>
 #include <span>
 
@@ -22,17 +23,23 @@ Vec2 mask_place(const MaskCells& mask, std::uint32_t column, std::uint32_t row) 
   return mask.origin + Vec2{x * cosine - y * sine, x * sine + y * cosine};
 }
 
+/// Which values, from 0 to 100, block a cell of the mask.
+std::bitset<101> blocked_values(const PriceMask& mask) {
+  std::bitset<101> blocked;
+  for (int value = 0; value <= 100; ++value) blocked[as_whole<std::size_t>(value)] = !judged_factor(mask, value);
+  return blocked;
+}
+
 /// The blocked cells of a mask, row by row in runs: calls run(row, first column, end).
 template <class Run>
 void blocked_runs(const PriceMask& mask, const Execution& execution, const Run& run) {
   const MaskCells& cells = *mask.read;
-  std::vector<std::uint8_t> blocked(101);
-  for (int value = 0; value <= 100; ++value) blocked[as_whole<std::size_t>(value)] = judged_factor(mask, value) ? 0 : 1;
+  const std::bitset<101> blocked = blocked_values(mask);
   for (std::uint32_t y = 0; y < cells.height; ++y) {
     execution.check();
     const auto is_blocked = [&](std::uint32_t x) {
       const int value = cells.values[std::size_t{y} * cells.width + x];
-      return value > 0 && blocked[as_whole<std::size_t>(std::min(value, 100))] != 0;
+      return value > 0 && blocked[as_whole<std::size_t>(std::min(value, 100))];
     };
     for (std::uint32_t x = 0; x < cells.width; ++x) {
       if (!is_blocked(x)) continue;
@@ -50,14 +57,10 @@ class ClosedCells {
 
   void close(std::span<const Vec2> corners) {
     const double top = map_.height();
-    double least = top;
-    double most = 0.0;
-    for (const Vec2 p : corners) {
-      least = std::min(least, p.y);
-      most = std::max(most, p.y);
-    }
-    const auto first = bounded_whole<std::uint32_t>(std::floor(least), 0.0, top);
-    const auto end = bounded_whole<std::uint32_t>(std::ceil(most), 0.0, top);
+    Box box;
+    for (const Vec2 p : corners) box.include(p);
+    const auto first = bounded_whole<std::uint32_t>(std::floor(box.min.y), 0.0, top);
+    const auto end = bounded_whole<std::uint32_t>(std::ceil(box.max.y), 0.0, top);
     for (std::uint32_t row = first; row < end; ++row) {
       execution_.check();
       close_row(corners, row);
@@ -76,8 +79,7 @@ class ClosedCells {
     const double width = map_.width();
     around_.clear();
     for (std::size_t i = 0; i < corners.size(); ++i) {
-      const Vec2 a = corners[i];
-      const Vec2 b = corners[(i + 1) % corners.size()];
+      const auto [a, b] = exact::outline_side(corners, i);
       if ((a.y <= low + 0.5) != (b.y <= low + 0.5)) around_.push_back(a.y < b.y ? Segment{a, b} : Segment{b, a});
       if (!(std::max(a.y, b.y) > low && std::min(a.y, b.y) < low + 1.0)) continue;
       const auto from = bounded_whole<std::uint32_t>(std::floor(std::min(a.x, b.x)), 0.0, width);
@@ -87,14 +89,10 @@ class ClosedCells {
       }
     }
     if (around_.empty()) return;
-    double from = width;
-    double to = 0.0;
-    for (const Segment& side : around_) {
-      from = std::min({from, side.a.x, side.b.x});
-      to = std::max({to, side.a.x, side.b.x});
-    }
-    const auto end = bounded_whole<std::uint32_t>(std::ceil(to), 0.0, width);
-    for (auto x = bounded_whole<std::uint32_t>(std::floor(from), 0.0, width); x < end; ++x) {
+    Box box;
+    for (const Segment& side : around_) box.include(box_of(side));
+    const auto end = bounded_whole<std::uint32_t>(std::ceil(box.max.x), 0.0, width);
+    for (auto x = bounded_whole<std::uint32_t>(std::floor(box.min.x), 0.0, width); x < end; ++x) {
       const auto left = std::count_if(around_.begin(), around_.end(), [&](const Segment& side) {
         return exact::side_of(side.a, side.b, {x + 0.5, low + 0.5}) < 0;  // upwards: its right is beyond it
       });
@@ -108,7 +106,7 @@ class ClosedCells {
     if (a == b) return true;
     int least = 1;
     int most = -1;
-    for (const Vec2 corner : {Vec2{x, y}, Vec2{x + 1.0, y}, Vec2{x, y + 1.0}, Vec2{x + 1.0, y + 1.0}}) {
+    for (const Vec2 corner : Box{{x, y}, {x + 1.0, y + 1.0}}.corners()) {
       const int side = exact::side_of(a, b, corner);
       least = std::min(least, side);
       most = std::max(most, side);
@@ -154,13 +152,6 @@ void restrict_plane(Scene& scene, const Prices& prices, const Execution& executi
   }
 }
 
-bool blocks_cells(const PriceMask& mask) {
-  for (int value = 1; value <= 100; ++value) {
-    if (!judged_factor(mask, value)) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 std::optional<double> judged_factor(const PriceMask& mask, int value) {
@@ -189,7 +180,8 @@ std::optional<Scene> effective_scene(const Scene& scene, const Prices& prices, c
     if (!mask.read) throw InputError(mask.file, "this mask has not been read");
   }
   const bool opens = prices.unknown && scene.map && !scene.map->unknown.empty();
-  if (!opens && prices.keep_out.empty() && std::none_of(prices.masks.begin(), prices.masks.end(), blocks_cells)) {
+  const auto blocks = [](const PriceMask& mask) { return blocked_values(mask).any(); };
+  if (!opens && prices.keep_out.empty() && std::none_of(prices.masks.begin(), prices.masks.end(), blocks)) {
     return std::nullopt;
   }
   if (scene.map) execution.reserve(scene.map->blocked.bytes() + scene.map->unknown.bytes() + scene.map->water.bytes());

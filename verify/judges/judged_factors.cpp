@@ -95,7 +95,7 @@ double JudgedFactors::over(const Segment& leg) {
   cuts_.clear();
   for (const Area& area : areas_) {
     for (std::size_t i = 0; i < area.corners.size(); ++i) {
-      const Segment side = area.side(i);
+      const Segment side = exact::outline_side(area.corners, i);
       const Vec2 along = side.b - side.a;
       const double t = cross(side.a - ray.from, along) / cross(ray.u, along);
       if (t > 0.0 && t < ray.length) cuts_.push_back(t);  // not NaN, where it runs along
@@ -127,7 +127,7 @@ double JudgedFactors::over(const JudgedArc& arc) {
   cuts_.clear();
   for (const Area& area : areas_) {
     for (std::size_t i = 0; i < area.corners.size(); ++i) {
-      const Segment side = area.side(i);
+      const Segment side = exact::outline_side(area.corners, i);
       if (side.a != side.b) add_crossings(in_map, side.a, side.b - side.a, cuts_);
     }
   }
@@ -149,7 +149,7 @@ double JudgedFactors::over(const JudgedArc& arc) {
 bool JudgedFactors::Area::holds(Vec2 p) const {
   int wound = 0;
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Segment s = side(i);
+    const Segment s = exact::outline_side(corners, i);
     if (exact::distance(s, {p, p}) <= on_border) return false;
     if ((s.a.y <= p.y) == (s.b.y <= p.y)) continue;
     const int left = exact::side_of(s.a, s.b, p);

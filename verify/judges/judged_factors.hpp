@@ -66,7 +66,6 @@ class JudgedFactors {
   struct Area {
     double factor;
     std::vector<Vec2> corners;
-    Segment side(std::size_t i) const { return {corners[i], corners[i + 1 == corners.size() ? 0 : i + 1]}; }
     bool holds(Vec2 p) const;
   };
   double factor(Vec2 p, Vec2 in_world) const;

@@ -18,11 +18,10 @@ Violation elsewhere(std::string_view which, std::span<const double> wanted, doub
   return {leg, distance, fmt::format("{}: {}", which, fmt::join(wanted, " "))};
 }
 
-Verification verdict_on(const LegReport& legs, const std::optional<Violation>& start,
-                        const std::optional<Violation>& goal) {
+Verification verdict_on(const LegReport& legs, const WrongEnds& ends) {
   Verification verdict;
   verdict.min_clearance = legs.least;
-  verdict.first_violation = start ? start : legs.violation ? legs.violation : goal;
+  verdict.first_violation = ends.start ? ends.start : legs.violation ? legs.violation : ends.goal;
   verdict.verified = !verdict.first_violation;
   return verdict;
 }

@@ -50,9 +50,13 @@ constexpr std::size_t legs_of(std::size_t states) { return states > 1 ? states -
 /// state that was asked for.
 Violation elsewhere(std::string_view which, std::span<const double> wanted, double distance, std::size_t leg);
 
+/// What the ends of a path say where it begins or ends elsewhere than it was asked to; nothing where it doesn't.
+struct WrongEnds {
+  std::optional<Violation> start, goal;
+};
+
 /// Start before all legs, the goal after them. Leaves it to the caller to measure the path.
-Verification verdict_on(const LegReport& legs, const std::optional<Violation>& start,
-                        const std::optional<Violation>& goal);
+Verification verdict_on(const LegReport& legs, const WrongEnds& ends);
 
 // What obstacles say about a path, one pair of leg and obstacle after the other: the least distance, the first
 // violation, the contacts. Pairs that are too far apart to matter are left out by their boxes; the others go to

@@ -49,19 +49,15 @@ class ArmVerifier {
     }
     return std::nullopt;
   }
-  std::optional<Violation> wrong_start(std::span<const JointState> path) const {
-    if (!options.start) return std::nullopt;
-    const double off = difference(path.front(), *options.start);
+  std::optional<Violation> wrong_state(std::string_view which, const std::optional<JointState>& wanted,
+                                       const JointState& q, std::size_t leg) const {
+    const double off = wanted ? difference(q, *wanted) : 0.0;
     if (off <= options.tolerance) return std::nullopt;
-    return elsewhere("start", std::span(*options.start).first(model.variables.size()), off, 0);
+    return elsewhere(which, std::span(*wanted).first(model.variables.size()), off, leg);
   }
   std::optional<Violation> wrong_goal(std::span<const JointState> path) const {
     const std::size_t last = legs_of(path.size()) - 1;
-    if (options.goal) {
-      const double off = difference(path.back(), *options.goal);
-      if (!(off <= options.tolerance))
-        return elsewhere("goal", std::span(*options.goal).first(model.variables.size()), off, last);
-    }
+    if (auto wrong = wrong_state("goal", options.goal, path.back(), last)) return wrong;
     if (!options.goal_place && !options.goal_pose) return std::nullopt;
     const SolidFrame tool = arm.tool_at(path.back());
     double off = 0.0;
@@ -430,7 +426,8 @@ Verification verify_arm(const Scene& scene, const ArmModel& model, std::span<con
     if (!report.violation) report.violation = judge.outside_limits(b, r.first);
     return report.violation ? report : ArmLeg(judge, a, b, r.first).check();
   });
-  Verification result = verdict_on(legs, judge.wrong_start(path), judge.wrong_goal(path));
+  Verification result =
+      verdict_on(legs, {judge.wrong_state("start", options.start, path.front(), 0), judge.wrong_goal(path)});
   result.length = judge.length(path);
   return result;
 }

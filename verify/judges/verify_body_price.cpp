@@ -15,7 +15,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/trigonometry.hpp"
-#include "core/base/whole.hpp"
+#include "verify/exact/exact_segments.hpp"
 #include "verify/judges/judged_factors.hpp"
 #include "verify/judges/verify_price.hpp"
 #include "verify/near/sides_near_legs.hpp"
@@ -126,8 +126,7 @@ class BodyNearness {
   double distance_of(const Pair& pair) const {
     const Segment& side = sides_[pair.side].segment;
     if (pair.is_corner) return std::sqrt(square_to(corners_[pair.of_body], side));
-    const std::size_t next = pair.of_body + 1 == corners_.size() ? 0 : pair.of_body + 1;
-    const Segment own{corners_[pair.of_body], corners_[next]};
+    const Segment own = exact::outline_side(corners_, pair.of_body);
     return std::sqrt(std::min(square_to(side.a, own), square_to(side.b, own)));
   }
   /// The integral of (1 - u / reach)^2 from x on.

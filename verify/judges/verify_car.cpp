@@ -25,9 +25,12 @@
 namespace warren {
 namespace {
 
+/// May it back up?
+bool reverses(const RobotSpec& car) { return car.steering != SteeringKind::dubins; }
+
 class CarVerifier {
  public:
-  CarVerifier(const Scene& scene, const VerifiedCar& car, std::span<const Se2> path, const PoseVerifyOptions& options,
+  CarVerifier(const Scene& scene, const RobotSpec& car, std::span<const Se2> path, const PoseVerifyOptions& options,
               const Execution& execution, const ObstacleIndex* index)
       : car_(car),
         path_(path),
@@ -39,7 +42,7 @@ class CarVerifier {
     for (std::size_t i = 0; i < legs_of(path.size()); ++i) {
       legs_.push_back(car_leg_between(path[i], path[std::min(i + 1, path.size() - 1)]));
       add_motion(i, motion_of(legs_.back()));
-      if (car.reverses && legs_.back().is_half_turn()) {  // either way may be meant: both must be free
+      if (reverses(car) && legs_.back().is_half_turn()) {  // either way may be meant: both must be free
         Leg other = motions_.back();
         other.turn -= std::copysign(2.0 * std::numbers::pi, other.turn);
         add_motion(i, other);
@@ -90,10 +93,11 @@ class CarVerifier {
     if (std::abs(leg.aside) > tolerance_) {
       return bad(fmt::format("leg: slides sideways by {}; between two poses a car keeps its steering", leg.aside));
     }
-    if (!car_.turns_on_spot && leg.length + tolerance_ < car_.turning_radius * std::abs(leg.turn)) {
+    if (car_.steering != SteeringKind::differential &&
+        leg.length + tolerance_ < car_.turning_radius * std::abs(leg.turn)) {
       return bad(fmt::format("turning radius: {} is below {}", leg.radius, car_.turning_radius));
     }
-    if (!car_.reverses && leg.ahead < -tolerance_) return bad(fmt::format("gear: goes backwards by {}", -leg.ahead));
+    if (!reverses(car_) && leg.ahead < -tolerance_) return bad(fmt::format("gear: goes backwards by {}", -leg.ahead));
     return std::nullopt;
   }
   void add_motion(std::size_t leg, const Leg& motion) {
@@ -107,7 +111,7 @@ class CarVerifier {
     return {leg.a, leg.chord, 0.0, true, aside + std::abs(leg.turn) * (leg.length + size_)};
   }
 
-  const VerifiedCar& car_;
+  const RobotSpec& car_;
   std::span<const Se2> path_;
   std::vector<Vec2> outline_;  // of a disc: its middle
   BodyVerifier body_;
@@ -118,7 +122,7 @@ class CarVerifier {
   double tolerance_ = 0.0;
 };
 
-void check_car(const VerifiedCar& car) {
+void check_car(const RobotSpec& car) {
   if (!(car.turning_radius > 0.0 && car.turning_radius <= largest_coordinate)) {
     throw InputError("robot: turning radius", "must be a number above 0", fmt::format("{}", car.turning_radius));
   }
@@ -129,14 +133,14 @@ void check_car(const VerifiedCar& car) {
 
 }  // namespace
 
-Verification verify_car(const Scene& scene, const VerifiedCar& car, std::span<const Se2> path,
+Verification verify_car(const Scene& scene, const RobotSpec& car, std::span<const Se2> path,
                         const PoseVerifyOptions& options, const Execution& execution, const ObstacleIndex* index) {
   check_car(car);
   check_judged_poses(scene, path, options, execution);
   CarVerifier verifier(scene, car, path, options, execution, index);
   LegReport legs = verifier.check();
   legs.least = std::max(legs.least, 0.0) - car.radius;
-  Verification result = verdict_on(legs, wrong_start(path, options), wrong_goal(path, options));
+  Verification result = verdict_on(legs, wrong_ends(path, options));
   verifier.measure(result);
   return result;
 }

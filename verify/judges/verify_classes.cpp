@@ -94,32 +94,28 @@ class Holes {
     }
     struct Extent {
       Run right;  // that reaches farthest
-      std::uint32_t low_x, high_x, low_y, high_y;
+      Box box;
     };
     std::map<std::size_t, Extent> holes;  // by the first run of each: of its lowest cells the leftmost
     for (std::size_t i = 0; i < runs_.size(); ++i) {
       const Run& run = runs_[i];
-      const auto [known, is_new] = holes.try_emplace(root(i), Extent{run, run.first, run.last, run.row, run.row});
-      if (is_new) continue;
-      Extent& extent = known->second;
+      Extent& extent = holes.try_emplace(root(i), Extent{run, {}}).first->second;
       if (run.last > extent.right.last) extent.right = run;
-      extent.low_x = std::min(extent.low_x, run.first);
-      extent.high_x = std::max(extent.high_x, run.last);
-      extent.high_y = run.row;
+      extent.box.include(Box{{1.0 * run.first, 1.0 * run.row}, {run.last + 1.0, run.row + 1.0}});
     }
     Bitmap ends = closed;  // where cuts end: small holes are passed over
     for (const auto& [number, e] : holes) {
       const bool at_border =
-          e.low_x == 0 || e.low_y == 0 || e.high_x + 1 == closed.width() || e.high_y + 1 == closed.height();
-      if (!at_border && std::max(e.high_x - e.low_x, e.high_y - e.low_y) + 1.0 < least) {
-        for (std::size_t i = number; i < runs_.size() && runs_[i].row <= e.high_y; ++i) {
+          e.box.min.x == 0.0 || e.box.min.y == 0.0 || e.box.max.x == closed.width() || e.box.max.y == closed.height();
+      if (!at_border && std::max(e.box.width(), e.box.height()) < least) {
+        for (std::size_t i = number; i < runs_.size() && runs_[i].row < e.box.max.y; ++i) {
           for (std::uint32_t x = runs_[i].first; root(i) == number && x <= runs_[i].last; ++x) {
             ends.clear(x, runs_[i].row);
           }
         }
       } else if (!at_border) {
         rays_.push_back({e.right.last + 0.5, e.right.row + 0.5, as_whole<std::int32_t>(rays_.size() + 1)});
-        boxes_.push_back({{1.0 * e.low_x, 1.0 * e.low_y}, {e.high_x + 1.0, e.high_y + 1.0}});
+        boxes_.push_back(e.box);
         cuts_.push_back({runs_[number].first, runs_[number].row, runs_[number].row});
       }
     }

@@ -14,7 +14,6 @@
 #include "core/base/error.hpp"
 #include "core/base/whole.hpp"
 #include "verify/exact/exact_segments.hpp"
-#include "verify/judges/judged_input.hpp"
 #include "verify/judges/leg_reports.hpp"
 
 namespace warren {
@@ -48,7 +47,7 @@ struct JudgedLeg {
     const std::array<Vec2, 4> corners = square.corners();
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t side = 0; side < 4; ++side) {
-      least = std::min(least, distance_to(Segment{corners[side], corners[(side + 1) % 4]}));
+      least = std::min(least, distance_to(exact::outline_side(corners, side)));
     }
     return least;
   }
@@ -135,28 +134,16 @@ JudgedLeg judged_leg(const OccupancyMap& map, const Segment& leg, double reach) 
   return {{map_point(map, leg.a), map_point(map, leg.b)}, std::max(reach / map.cell - rounding, 0.0)};
 }
 
-void check(std::span<const Vec2> path, const VerifyOptions& options) {
-  if (path.empty()) throw InputError("path", "has no points");
-  for (const Vec2 p : path) {
-    if (!(std::abs(p.x) <= largest_coordinate && std::abs(p.y) <= largest_coordinate)) {
-      throw InputError("path", "has a point that is not finite");
-    }
-  }
-  check_not_negative("radius", options.radius);
-  check_not_negative("clearance", options.clearance);
-  check_not_negative("tolerance", options.tolerance);
-  if (options.contact == Contact::allowed) {
-    throw InputError("contact", "can't be allowed on a map: a blocked cell is a closed square");
-  }
-}
-
 }  // namespace
 
 Verification verify_on_map(const OccupancyMap& map, std::span<const Vec2> path, const VerifyOptions& options,
                            const Execution& execution) {
-  check(path, options);
+  check_judged_path(path, options, execution);
+  if (options.contact == Contact::allowed) {
+    throw InputError("contact", "can't be allowed on a map: a blocked cell is a closed square");
+  }
   const auto first_cell = cell_at(map, path.front());
-  const Closed closed(map, first_cell && !map.water.empty() && map.water.test(first_cell->x, first_cell->y));
+  const Closed closed(map, first_cell && map.water.holds(first_cell->x, first_cell->y));
   const auto leg_at = [&](std::size_t i) { return Segment{path[i], path[std::min(i + 1, path.size() - 1)]}; };
   constexpr std::size_t legs_a_chunk = 256;
   LegReport legs = report_legs(legs_of(path.size()), legs_a_chunk, execution, [&](Range r) {
@@ -172,7 +159,7 @@ Verification verify_on_map(const OccupancyMap& map, std::span<const Vec2> path, 
     return report;
   });
   legs.least *= map.cell;
-  Verification result = verdict_on(legs, wrong_start(path, options), wrong_goal(path, options));
+  Verification result = verdict_on(legs, wrong_ends(path, options, legs_of(path.size())));
   result.min_clearance -= options.radius;
   if (result.verified) result.min_clearance = std::max(result.min_clearance, 0.0);  // but for rounding
   for (std::size_t i = 0; i < legs_of(path.size()); ++i) result.length += distance(leg_at(i).a, leg_at(i).b);

@@ -64,7 +64,7 @@ Verification judged_legs(const Scene& scene, const ObstacleIndex* index, std::sp
   check_box(box, legs, tally);
   LegReport report{.least = tally.least};
   if (tally.violation != no_violation) report.violation = describe(tally, path, obstacles, box);
-  Verification result = verdict_on(report, wrong_start(path, options), wrong_goal(path, options));
+  Verification result = verdict_on(report, wrong_ends(path, options, legs_of(path.size())));
   result.length = legs.length();
   return result;
 }
@@ -86,15 +86,12 @@ void check_judged_path(std::span<const Vec2> path, const VerifyOptions& options,
   check_not_negative("tolerance", options.tolerance);
 }
 
-std::optional<Violation> wrong_start(std::span<const Vec2> path, const VerifyOptions& options) {
-  if (!options.start || norm(path.front() - *options.start) <= options.tolerance) return std::nullopt;
-  return elsewhere("start", std::array{options.start->x, options.start->y}, norm(path.front() - *options.start), 0);
-}
-
-std::optional<Violation> wrong_goal(std::span<const Vec2> path, const VerifyOptions& options) {
-  if (!options.goal || norm(path.back() - *options.goal) <= options.tolerance) return std::nullopt;
-  return elsewhere("goal", std::array{options.goal->x, options.goal->y}, norm(path.back() - *options.goal),
-                   legs_of(path.size()) - 1);
+WrongEnds wrong_ends(std::span<const Vec2> path, const VerifyOptions& options, std::size_t legs) {
+  const auto wrong = [&](std::string_view which, const std::optional<Vec2>& wanted, Vec2 end, std::size_t leg) {
+    if (!wanted || norm(end - *wanted) <= options.tolerance) return std::optional<Violation>();
+    return std::optional(elsewhere(which, std::array{wanted->x, wanted->y}, norm(end - *wanted), leg));
+  };
+  return {wrong("start", options.start, path.front(), 0), wrong("goal", options.goal, path.back(), legs - 1)};
 }
 
 Verification verify_path(const Scene& scene, std::span<const Vec2> path, const VerifyOptions& options,

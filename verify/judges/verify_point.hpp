@@ -22,6 +22,7 @@
 namespace warren {
 
 class ObstacleIndex;  // verify/near/obstacle_index.hpp
+struct WrongEnds;     // verify/judges/leg_reports.hpp
 
 enum class Contact : std::uint8_t { blocked, allowed };
 constexpr auto enum_names(Contact) { return std::array<std::string_view, 2>{"blocked", "allowed"}; }
@@ -57,8 +58,7 @@ Verification verify_on_map(const OccupancyMap& map, std::span<const Vec2> path, 
 /// Throws InputError for paths and options that no judge of points and discs takes, as said above.
 void check_judged_path(std::span<const Vec2> path, const VerifyOptions& options, const Execution& execution);
 
-/// What the ends of a path of points say that begins or ends elsewhere; nothing where they are as asked for.
-std::optional<Violation> wrong_start(std::span<const Vec2> path, const VerifyOptions& options);
-std::optional<Violation> wrong_goal(std::span<const Vec2> path, const VerifyOptions& options);
+/// Of a path of points, of so many legs, of which the first and the last point are looked at.
+WrongEnds wrong_ends(std::span<const Vec2> path, const VerifyOptions& options, std::size_t legs);
 
 }  // namespace warren

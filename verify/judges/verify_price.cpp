@@ -271,7 +271,7 @@ PriceParts verify_price(const Scene& scene, std::span<const Vec2> path, const Pr
     if (scene.map) {
       const OccupancyMap& map = *scene.map;
       const auto first = cell_at(map, path.front());
-      const bool on_water = first && !map.water.empty() && map.water.test(first->x, first->y);
+      const bool on_water = first && map.water.holds(first->x, first->y);
       near_cells.emplace(map, on_water, (reach + radius) / map.cell, execution);
     } else {
       near_sides.emplace(scene, reach + radius, execution);

@@ -103,21 +103,16 @@ void check_judged_poses(const Scene& scene, std::span<const Se2> path, const Pos
   check_plane_scene(scene, execution);
 }
 
-std::optional<Violation> wrong_start(std::span<const Se2> path, const PoseVerifyOptions& options) {
-  if (!options.start || is_there(path.front(), *options.start, false, options.tolerance)) return std::nullopt;
-  const Se2& wanted = *options.start;
-  return elsewhere("start", std::array{wanted.x, wanted.y, wanted.theta},
-                   distance(path.front().position(), wanted.position()), 0);
-}
-
-std::optional<Violation> wrong_goal(std::span<const Se2> path, const PoseVerifyOptions& options) {
-  if (!options.goal || is_there(path.back(), *options.goal, options.any_heading, options.tolerance)) {
-    return std::nullopt;
-  }
-  const Se2& wanted = *options.goal;
-  const std::array numbers{wanted.x, wanted.y, wanted.theta};
-  return elsewhere("goal", std::span(numbers).first(options.any_heading ? 2 : 3),
-                   distance(path.back().position(), wanted.position()), legs_of(path.size()) - 1);
+WrongEnds wrong_ends(std::span<const Se2> path, const PoseVerifyOptions& options) {
+  const auto wrong = [&](std::string_view which, const std::optional<Se2>& wanted, const Se2& end, bool any_heading,
+                         std::size_t leg) {
+    if (!wanted || is_there(end, *wanted, any_heading, options.tolerance)) return std::optional<Violation>();
+    const std::array numbers{wanted->x, wanted->y, wanted->theta};
+    const double off = distance(end.position(), wanted->position());
+    return std::optional(elsewhere(which, std::span(numbers).first(any_heading ? 2 : 3), off, leg));
+  };
+  return {wrong("start", options.start, path.front(), false, 0),
+          wrong("goal", options.goal, path.back(), options.any_heading, legs_of(path.size()) - 1)};
 }
 
 Verification verify_se2(const Scene& scene, std::span<const Vec2> outline, std::span<const Se2> path,
@@ -128,7 +123,7 @@ Verification verify_se2(const Scene& scene, std::span<const Vec2> outline, std::
   BodyVerifier body(scene, outline, options.clearance, 0.0, execution, index);
   LegReport legs = PathCheck(body, path, execution).check(std::max(body.least_reach(), 1e-9));  // it may have no extent
   legs.least = std::max(legs.least, 0.0);
-  Verification result = verdict_on(legs, wrong_start(path, options), wrong_goal(path, options));
+  Verification result = verdict_on(legs, wrong_ends(path, options));
   for (std::size_t i = 1; i < path.size(); ++i) {
     result.length += portable::hypot(path[i].x - path[i - 1].x, path[i].y - path[i - 1].y);
     result.turn_rad += std::abs(shorter_turn(path[i - 1].theta, path[i].theta));

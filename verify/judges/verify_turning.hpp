@@ -22,6 +22,7 @@
 namespace warren {
 
 class ObstacleIndex;  // verify/near/obstacle_index.hpp
+struct WrongEnds;     // verify/judges/leg_reports.hpp
 
 struct PoseVerifyOptions {
   double clearance = 0.0;         ///< room around the body all along the path; >= 0; 0: touching is blocked
@@ -43,23 +44,15 @@ Verification verify_se2(const Scene& scene, std::span<const Vec2> outline, std::
                         const PoseVerifyOptions& options, const Execution& execution,
                         const ObstacleIndex* index = nullptr);
 
-/// What drives.
-struct VerifiedCar {
-  double turning_radius = 1.0;     ///< > 0
-  bool reverses = false;           ///< may it back up?
-  bool turns_on_spot = false;      ///< may it turn as tightly as it likes? Then turning_radius is a scale of lengths
-  double radius = 0.0;             ///< of a disc around the reference point; >= 0
-  std::vector<Vec2> outline = {};  ///< a polygon instead; then radius is 0
-};
-
 /// The car among the scene's walls, polygons and bounds; on a map among its cells, whose borders are read from the
-/// bits. Throws InputError for scenes that hold anything else, or nothing (verify/judges/judged_input). Legs turn by
+/// bits. Where it turns on the spot it may turn as tightly as it likes, and its turning radius, > 0, is a scale of
+/// lengths. Throws InputError for scenes that hold anything else, or nothing (verify/judges/judged_input). Legs turn by
 /// half a turn at most; where a car that reverses could drive half a turn either way, both must be free. Poses may be
 /// off by some 1e-9 turning radii. The path has at least one pose, all finite (InputError otherwise); a single pose is
 /// a leg of length zero. min_clearance is around the body: a lower bound, sharp up to rounding; where the path is not
 /// free, the least met. The same for any number of threads, with an index of this scene and without; it is for scenes
 /// that are no maps.
-Verification verify_car(const Scene& scene, const VerifiedCar& car, std::span<const Se2> path,
+Verification verify_car(const Scene& scene, const RobotSpec& car, std::span<const Se2> path,
                         const PoseVerifyOptions& options, const Execution& execution,
                         const ObstacleIndex* index = nullptr);
 
@@ -68,8 +61,6 @@ Verification verify_car(const Scene& scene, const VerifiedCar& car, std::span<co
 void check_judged_poses(const Scene& scene, std::span<const Se2> path, const PoseVerifyOptions& options,
                         const Execution& execution);
 
-/// What the ends of a path of poses say that begins or ends elsewhere; nothing where they are as asked for.
-std::optional<Violation> wrong_start(std::span<const Se2> path, const PoseVerifyOptions& options);
-std::optional<Violation> wrong_goal(std::span<const Se2> path, const PoseVerifyOptions& options);
+WrongEnds wrong_ends(std::span<const Se2> path, const PoseVerifyOptions& options);
 
 }  // namespace warren

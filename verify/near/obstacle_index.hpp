@@ -21,6 +21,7 @@
 #include "core/run/execution.hpp"
 #include "parallel/chunks.hpp"
 #include "scenes/scene/scene.hpp"
+#include "verify/exact/exact_segments.hpp"
 #include "verify/near/leg_boxes.hpp"
 
 namespace warren {
@@ -53,9 +54,7 @@ class Obstacles {
   const std::vector<Side>& sides() const { return sides_; }
   const std::vector<Ring>& rings() const { return rings_; }
   Segment side_segment(std::size_t i) const {
-    const std::vector<Vec2>& corners = rings_[sides_[i].ring].corners;
-    const std::size_t side = sides_[i].side;
-    return {corners[side], corners[side + 1 == corners.size() ? 0 : side + 1]};
+    return exact::outline_side(rings_[sides_[i].ring].corners, sides_[i].side);
   }
   Segment segment(std::size_t i) const {
     return i < wall_count() ? scene_.walls.segment(i) : side_segment(i - wall_count());

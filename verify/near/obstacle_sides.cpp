@@ -55,15 +55,14 @@ std::string Obstacles::name(std::size_t i) const {
 
 bool outline_holds(std::span<const Vec2> corners, Vec2 p, bool on_outline) {
   bool inside = false;
-  Vec2 a = corners.back();
-  for (const Vec2 b : corners) {
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const auto [a, b] = exact::outline_side(corners, i);
     if (exact::contains({a, b}, p)) return on_outline;
     // Sides count where they cross the height of p going right of it; a half-open rule counts shared corners once.
     if ((a.y <= p.y) != (b.y <= p.y)) {
       const int side = exact::side_of(a, b, p);
       if (b.y > a.y ? side > 0 : side < 0) inside = !inside;
     }
-    a = b;
   }
   return inside;
 }

@@ -291,9 +291,7 @@ void JudgeAmongCells::add(std::span<const Vec2> piece) {
 
 Verification JudgeAmongCells::verdict() const {
   assert(points_ > 0);
-  std::optional<Violation> goal = wrong_goal(ends_, options_);
-  if (goal) goal->leg = legs_of(points_) - 1;
-  Verification verdict = verdict_on(report_, wrong_start(ends_, options_), goal);
+  Verification verdict = verdict_on(report_, wrong_ends(ends_, options_, legs_of(points_)));
   verdict.length = length_;
   verdict.min_clearance -= options_.radius;
   return verdict;
@@ -316,7 +314,7 @@ Verification verify_steps(const LookedUpWalls& walls, std::span<const Vec2> path
   const Verification last = verify_among_cells(walls, path.last(2), {options.radius, options.clearance}, execution);
   if (!first.verified || !last.verified) return verify_among_cells(walls, path, options, execution);
   const LegReport legs{.least = half};
-  Verification verdict = verdict_on(legs, wrong_start(path, options), wrong_goal(path, options));
+  Verification verdict = verdict_on(legs, wrong_ends(path, options, legs_of(path.size())));
   verdict.length = *length;
   verdict.min_clearance = std::min({half - options.radius, first.min_clearance, last.min_clearance});
   return verdict;

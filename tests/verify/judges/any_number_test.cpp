@@ -376,7 +376,9 @@ TEST(JudgesOfAnyNumber, OfCarsAgreeWithASecondJudge) {
     for (const Scene& scene : {plane_of(seed), map}) {
       for (const bool reverses : {false, true}) {
         SCOPED_TRACE(testing::Message() << seed << (scene.map ? " map" : " walls") << (reverses ? " reverses" : ""));
-        VerifiedCar car{.turning_radius = radius, .reverses = reverses};
+        RobotSpec car{.kind = RobotKind::car,
+                      .turning_radius = radius,
+                      .steering = reverses ? SteeringKind::reeds_shepp : SteeringKind::dubins};
         if (is_disc) car.radius = size;
         if (!is_disc) car.outline = body;
         Limits limits;
@@ -468,7 +470,10 @@ TEST(JudgesOfAnyNumber, OfTurningBodiesAndCarsAnswerOrRefuseInTimeAndMemory) {
     Scene map;
     map.map.emplace().blocked = Bitmap(6, 5);
     for (const bool reverses : {false, true}) {
-      const VerifiedCar car{.turning_radius = 0.5, .reverses = reverses, .radius = 0.1};
+      const RobotSpec car{.kind = RobotKind::car,
+                          .radius = 0.1,
+                          .turning_radius = 0.5,
+                          .steering = reverses ? SteeringKind::reeds_shepp : SteeringKind::dubins};
       for (const Scene* world : {&scene, &map}) {
         EXPECT_TRUE(!verify_car(*world, car, path, {}, limits.execution).verified || is_inside || world == &map);
       }
@@ -506,7 +511,7 @@ TEST(JudgesOfAnyNumber, ACarsLegToFarOutsideIsSettledBeforeItIsCutIntoBoxes) {
   scene.walls = WallSet::narrowest(walls);
   const Se2 path[] = {{5.18, 3.16, -1.36}, {1000.0, -150000.0, 0.387}};
   Limits limits;
-  const Verification far = verify_car(scene, {.turning_radius = 0.5, .radius = 0.1}, path, {}, limits.execution);
+  const Verification far = verify_car(scene, {.radius = 0.1, .turning_radius = 0.5}, path, {}, limits.execution);
   EXPECT_FALSE(far.verified);
   EXPECT_EQ(far.first_violation->leg, 0U);
 }

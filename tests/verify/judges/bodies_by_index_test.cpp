@@ -80,7 +80,10 @@ TEST(BodiesByIndex, DriveAsTheyDoByThePass) {
     SCOPED_TRACE(seed);
     const Scene scene = random_scene(seed);
     const ObstacleIndex index(scene, {});
-    const VerifiedCar car{.turning_radius = 0.5, .reverses = seed % 2 == 0, .radius = seed % 3 == 0 ? 0.02 : 0.2};
+    const RobotSpec car{.kind = RobotKind::car,
+                        .radius = seed % 3 == 0 ? 0.02 : 0.2,
+                        .turning_radius = 0.5,
+                        .steering = seed % 2 == 0 ? SteeringKind::reeds_shepp : SteeringKind::dubins};
     for (std::uint64_t question = 0; question < 6; ++question) {
       std::vector<Se2> path = random_path(100 * seed + question, scene);
       path.resize(1 + question % 2);  // a pose, or straight on

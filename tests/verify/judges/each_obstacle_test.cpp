@@ -70,7 +70,7 @@ TEST(Judges, EachPolygonStandsInTheWayOfPointsTurningBodiesAndCars) {
     scene.polygons.push_back({{{x - 0.2, y - 0.2}, {x + 0.2, y - 0.2}, {x, y + 0.2}}});
   });
   const std::vector<Vec2> bar{{-0.1, -0.05}, {0.1, -0.05}, {0.1, 0.05}, {-0.1, 0.05}};
-  const VerifiedCar car{.turning_radius = 0.3, .outline = bar};
+  const RobotSpec car{.kind = RobotKind::car, .turning_radius = 0.3, .outline = bar};
   for_each_cell([&](double x, double y) {
     const auto as_point = [&](double to) {
       return verify_path(scene, std::vector<Vec2>{{x - 0.4, y}, {x + to, y}}, {}, {}).verified;

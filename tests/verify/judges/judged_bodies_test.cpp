@@ -118,7 +118,8 @@ TEST(JudgedBodies, CarsOfAnyBodyAreJudgedAsDenseSamplesAre) {
       const double length = std::array{1.5, -1.5, 0.1, 3.0}[random_bits(seed, i, 801) % 4];
       const Se2 a = body_scenes::random_pose(seed, i);
       const std::vector<Se2> path{a, driven(a, curvature, length)};
-      VerifiedCar car{.turning_radius = 1.0, .reverses = true, .radius = radius};
+      RobotSpec car{
+          .kind = RobotKind::car, .radius = radius, .turning_radius = 1.0, .steering = SteeringKind::reeds_shepp};
       if (!is_disc) car.outline = outline;
       const double way = std::abs(length) * (1.0 + std::abs(curvature) * extent(outline));
       compare(verify_car(scene, car, path, {}, {}),

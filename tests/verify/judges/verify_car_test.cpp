@@ -29,8 +29,9 @@ Scene walls(const std::vector<Segment>& segments) {
   return scene;
 }
 
-const VerifiedCar disc_car{.turning_radius = 1.0, .radius = 0.25};
-const VerifiedCar reversing{.turning_radius = 1.0, .reverses = true, .radius = 0.25};
+const RobotSpec disc_car{.kind = RobotKind::car, .radius = 0.25, .turning_radius = 1.0};
+const RobotSpec reversing{
+    .kind = RobotKind::car, .radius = 0.25, .turning_radius = 1.0, .steering = SteeringKind::reeds_shepp};
 
 TEST(VerifyCar, MeasuresArcsAndStraightsExactly) {
   // Two ahead, a left half circle of radius 1 around (2, 1), two back; a wall begins 0.5 beyond the arc.
@@ -100,11 +101,12 @@ TEST(VerifyCar, CountsGearsOfACarThatReverses) {
 
 TEST(VerifyCar, RefusesWhatIsInTheWay) {
   const std::vector<Se2> round = {{0, 0, 0}, {1, 1, pi / 2}, {0, 2, pi}};
-  const VerifiedCar bar{.turning_radius = 1.0, .outline = {{-0.1, -0.6}, {0.1, -0.6}, {0.1, 0.6}, {-0.1, 0.6}}};
+  const RobotSpec bar{
+      .kind = RobotKind::car, .turning_radius = 1.0, .outline = {{-0.1, -0.6}, {0.1, -0.6}, {0.1, 0.6}, {-0.1, 0.6}}};
   struct Case {
     const char* name;
     Segment wall;
-    VerifiedCar car;
+    RobotSpec car;
     bool verified;
   };
   const Case all[] = {
@@ -149,7 +151,7 @@ const std::vector<Vec2> van = {{-1, -0.9}, {3.6, -0.9}, {3.6, 0.9}, {-1, 0.9}};
 TEST(VerifyCar, WhatLiesAcrossTheWholeBodyFromTheStartOnIsMet) {
   Scene scene;
   scene.bounds = Box{{0, 0}, {30, 12}};
-  const VerifiedCar car{.turning_radius = 2.0, .outline = van};
+  const RobotSpec car{.kind = RobotKind::car, .turning_radius = 2.0, .outline = van};
   const std::vector<Se2> straight = {{3, 5, 0}, {20, 5, 0}};
   const std::vector<Se2> round = {{10, 5, 0}, {12, 7, pi / 2}};
   ASSERT_TRUE(verify_car(scene, car, straight, {}, {}).verified);
@@ -175,7 +177,7 @@ TEST(VerifyCar, WhatLiesAcrossTheWholeBodyFromTheStartOnIsMet) {
 TEST(VerifyCar, WhatStandsBesideTheBulgeOfAnArcIsMet) {
   const double h = std::sqrt(0.5);
   const std::vector<Se2> below = {{-h, 1 - h, -pi / 4}, {h, 1 - h, pi / 4}};  // its lowest point is (0, 0)
-  const VerifiedCar car{.turning_radius = 1.0, .radius = 0.5};
+  const RobotSpec car{.kind = RobotKind::car, .radius = 0.5, .turning_radius = 1.0};
   const Segment clear{{-h - 0.503, 1 - h}, {-h - 0.6, 1 - h}};  // so near that nothing farther is looked for
   EXPECT_TRUE(verify_car(walls({clear}), car, below, {}, {}).verified);
   const auto v = verify_car(walls({clear, {{0, -0.4}, {0.01, -0.4}}}), car, below, {}, {});
@@ -203,9 +205,10 @@ TEST(VerifyCar, CellsOfMapsAreInTheWay) {
       const Vec2 p = world_point(*scene.map, {x, y});
       return Se2{p.x, p.y, theta + yaw};
     };
-    const VerifiedCar ahead{.turning_radius = 1.0, .outline = {{8, -0.4}, {9, -0.4}, {9, 0.4}, {8, 0.4}}};
-    const VerifiedCar disc{.turning_radius = 1.0, .radius = 0.5};
-    const auto refuted_by = [&](const VerifiedCar& car, const std::vector<Se2>& path) {
+    const RobotSpec ahead{
+        .kind = RobotKind::car, .turning_radius = 1.0, .outline = {{8, -0.4}, {9, -0.4}, {9, 0.4}, {8, 0.4}}};
+    const RobotSpec disc{.kind = RobotKind::car, .radius = 0.5, .turning_radius = 1.0};
+    const auto refuted_by = [&](const RobotSpec& car, const std::vector<Se2>& path) {
       const auto v = verify_car(scene, car, path, {}, {});
       return v.first_violation ? v.first_violation->obstacle.substr(0, 4) : "";
     };
@@ -297,7 +300,8 @@ TEST(VerifyCar, LeastClearanceIsThatOfManyPosesOnTheWay) {
     word.add(piece.steer, piece.length);
     const Se2 end = after_piece(a, piece);
     const SteeringCurve curve(a, end, word, 1.0);
-    const VerifiedCar car{.turning_radius = 1.0, .reverses = true, .outline = hook};
+    const RobotSpec car{
+        .kind = RobotKind::car, .turning_radius = 1.0, .outline = hook, .steering = SteeringKind::reeds_shepp};
     const auto v = verify_car(scene, car, std::vector<Se2>{a, end}, {}, {});
     double least = std::numeric_limits<double>::infinity();
     constexpr int steps = 3000;
