@@ -55,6 +55,9 @@ std::optional<Scene> restricted_copy(const Scene& scene, const Question& questio
   return restricts(prices) ? std::optional(restricted_scene(scene, prices, execution)) : std::nullopt;
 }
 
+/// What an answer says may be rounded by so much of it.
+constexpr double as_told = 1e-9;
+
 Violation untrue(std::string what) {
   return {.leg = 0, .distance = 0.0, .obstacle = std::move(what), .kind = ViolationKind::claim};
 }
@@ -67,7 +70,6 @@ void refute(Verdict& verdict, std::string what) {
 /// Cost and price that an answer claims are a part of what is verified.
 void check_price(Verdict& verdict, const Scene& judged, const Prices& prices, const RecordedAnswer& answer,
                  const Execution& execution) {
-  constexpr double rounding = 1e-9;
   if (!verdict.verified) return;
   const auto asked = judged_price(judged, prices, verdict.problem.robot, answer, execution);
   const auto driving = driving_price(answer, verdict, asked.has_value());
@@ -82,7 +84,7 @@ void check_price(Verdict& verdict, const Scene& judged, const Prices& prices, co
     price.reverse = driving->reverse;
   }
   const auto check = [&](std::string_view name, double said, double found) {
-    if (!verdict.verified || std::abs(said - found) <= rounding * (1.0 + std::abs(found))) return;
+    if (!verdict.verified || std::abs(said - found) <= as_told * (1.0 + std::abs(found))) return;
     refute(verdict, fmt::format("{}: the answer says {}, its path has {}", name, said, found));
   };
   if (answer.price) {
@@ -156,9 +158,8 @@ void check_stops_passed(Verdict& verdict, const GoalRule& rule, const RecordedAn
 
 /// The length that an answer claims is a part of what is verified.
 void check_length(Verdict& verdict, const RecordedAnswer& answer) {
-  constexpr double rounding = 1e-9;
   if (!verdict.verified || !answer.length) return;
-  if (std::abs(*answer.length - verdict.length) <= rounding * verdict.length) return;
+  if (std::abs(*answer.length - verdict.length) <= as_told * verdict.length) return;
   refute(verdict, fmt::format("length: the answer says {}, its path has {}", *answer.length, verdict.length));
 }
 
@@ -187,7 +188,7 @@ void check_classes(Verdict& verdict, const OccupancyMap& judged, const RecordedA
     if (is_there) {
       const Box box = world_box(map, found.holes[hole.id - 1]);
       const double off = distance(box.min, hole.box.min) + distance(box.max, hole.box.max);
-      is_there = off <= 1e-9 * (map.cell + norm(box.min) + norm(box.max));
+      is_there = off <= as_told * (map.cell + norm(box.min) + norm(box.max));
     }
     if (!is_there) return refute(verdict, fmt::format("holes: there is no hole {} in this box", hole.id));
   }
@@ -201,7 +202,7 @@ void check_alternatives(Verdict& verdict, const Scene& judged, const Question& a
   if (!judged.map || !is_round(verdict.problem.robot))
     return refute(verdict, "alternatives: classes are of points and discs on maps");
   const auto same = [](double said, double found) {
-    return said == found || std::abs(said - found) <= 1e-9 * (1.0 + std::abs(found));
+    return said == found || std::abs(said - found) <= as_told * (1.0 + std::abs(found));
   };
   double before = answer.price ? answer.cost.value_or(verdict.length) : verdict.length;
   for (std::size_t i = 0; i < answer.alternatives.size(); ++i) {
@@ -262,8 +263,7 @@ void check_certificate(Verdict& verdict, const Scene& scene, const RecordedAnswe
   map.blocked = closed_cells(map, claim.start);
   JudgedBound judged = verify_potential(map, claim, *answer.certificate, execution);
   const double cost = answer.price ? answer.cost.value_or(verdict.length) : verdict.length;
-  constexpr double rounding = 1e-9;
-  if (*answer.lower_bound > cost * (1.0 + rounding)) judged = {BoundVerdict::refuted, "above the path's cost"};
+  if (*answer.lower_bound > cost * (1.0 + as_told)) judged = {BoundVerdict::refuted, "above the path's cost"};
   take_bound(verdict, judged);
 }
 
@@ -351,19 +351,17 @@ void check_goal_told(Verdict& verdict, const RecordedAnswer& answer) {
 /// What may end anywhere near its goals is at least as long as the straight way to the nearest, but for so much. What
 /// is priced costs as much at least.
 BoundVerdict bound_near(const Problem& problem, const RecordedAnswer& answer, double off) {
-  constexpr double rounding = 1e-9;
   double least = std::numeric_limits<double>::infinity();
   for (const std::vector<double>& goal : asked_goals(answer, problem.goal, answer.problem.rule)) {
     least = std::min(least, distance(Vec2{problem.start[0], problem.start[1]}, Vec2{goal[0], goal[1]}) - off);
   }
-  const bool is_straight = *answer.lower_bound <= std::max(0.0, least) * (1.0 + rounding);
+  const bool is_straight = *answer.lower_bound <= std::max(0.0, least) * (1.0 + as_told);
   return is_straight ? BoundVerdict::checked : BoundVerdict::unchecked;
 }
 
 /// What passes places on its way is at least as long as the straight way over all of them and to the goal. A goal that
 /// is one of them may be where a path without one ends.
 BoundVerdict bound_over_stops(const Problem& problem, const RecordedAnswer& answer) {
-  constexpr double rounding = 1e-9;
   const GoalRule& rule = answer.problem.rule;
   if (*answer.lower_bound <= 0.0) return BoundVerdict::checked;
   if (is_arm(problem.robot) || rule.visit.size() > most_judged_stops) return BoundVerdict::unchecked;
@@ -374,18 +372,17 @@ BoundVerdict bound_over_stops(const Problem& problem, const RecordedAnswer& answ
     const std::optional<Vec2> stop = plane_point(place);
     if (!stop) return BoundVerdict::unchecked;
     stops.push_back(*stop);
-    if (!rule.back && end && distance(*end, *stop) <= rounding * (1.0 + norm(*stop))) end.reset();
+    if (!rule.back && end && distance(*end, *stop) <= as_told * (1.0 + norm(*stop))) end.reset();
   }
-  const bool is_straight = *answer.lower_bound <= straight_tour(start, stops, end) * (1.0 + rounding);
+  const bool is_straight = *answer.lower_bound <= straight_tour(start, stops, end) * (1.0 + as_told);
   return is_straight ? BoundVerdict::checked : BoundVerdict::unchecked;
 }
 
 /// What an answer says of its bound follows from that.
 std::string wrong_gap(const RecordedAnswer& answer, double cost) {
   constexpr double slack = 1e-5;  // arcs are told as lines
-  constexpr double nothing = 1e-9;
   const double bound = *answer.lower_bound;
-  if (answer.optimal && !(cost - bound <= slack * cost + nothing)) {
+  if (answer.optimal && !(cost - bound <= slack * cost + as_told)) {
     return fmt::format("optimal: the lower bound is {}, the path's cost {}", bound, cost);
   }
   const double gap = bound > 0.0 ? std::max(0.0, cost / bound - 1.0) : cost > 0.0 ? -1.0 : 0.0;  // -1: there is none
@@ -409,9 +406,8 @@ void check_bound(Verdict& verdict, const Scene& scene, const RecordedAnswer& ans
   };
   const double priced = answer.price ? answer.price->sum() : 0.0;
   const double cost = answer.cost.value_or(verdict.length + priced);
-  constexpr double rounding = 1e-9;
   JudgedBound judged = answer.price ? JudgedBound{} : judged_to({});  // against its own path
-  if (answer.price && *answer.lower_bound > cost * (1.0 + rounding)) {
+  if (answer.price && *answer.lower_bound > cost * (1.0 + as_told)) {
     judged = {BoundVerdict::refuted, "above the path's cost"};
   }
   if (judged.verdict == BoundVerdict::refuted) return take_bound(verdict, judged);
@@ -421,7 +417,7 @@ void check_bound(Verdict& verdict, const Scene& scene, const RecordedAnswer& ans
   const double off = rule.region.value_or(told && rule.tolerance ? told->distance : 0.0);
   const bool has_headings = told && problem.goal.size() == 3;
   const bool is_turned =
-      has_headings && (told->asked.size() < 3 || std::abs(turn_between(problem.goal[2], told->asked[2])) > rounding);
+      has_headings && (told->asked.size() < 3 || std::abs(turn_between(problem.goal[2], told->asked[2])) > as_told);
   const bool is_near = off > 0.0 || is_turned;
   if (answer.certificate && !is_near) return check_certificate(verdict, scene, answer, execution);
   if (!rule.visit.empty()) {  // a way that passes the stops by would be shorter
@@ -497,6 +493,17 @@ Answer kept_and_solved(Scene scene, const Question& question, const SolveOptions
   return answer;
 }
 
+/// Says what an estimate of options cost, where it is not the straight line.
+void tell_heuristic(const Scene& scene, const Question& question, const SolveOptions& options,
+                    const Execution& execution, Answer& answer) {
+  price_heuristic(answer, options.heuristic, [&](HeuristicKind exact) {
+    SolveOptions again = options;
+    again.heuristic = exact;
+    again.optimise = false;
+    return solve_within(scene, question, again, execution);
+  });
+}
+
 }  // namespace
 
 Answer solve_within(const Scene& scene, const Question& question, const SolveOptions& options,
@@ -535,8 +542,7 @@ Answer solve_within(const Scene& scene, const Question& question, const SolveOpt
   });
   if (reason) answer.stop_reason = reason;
   answer.costs = account.costs();
-  answer.threads = thread_count(execution.threads);
-  tell_memory(answer, execution);
+  tell_process(answer, execution);
   return answer;
 }
 
@@ -562,25 +568,15 @@ Verdict verify_within(const Scene& scene, const Question& question, const Record
   return verdict;
 }
 
-void price_heuristic(const Scene& scene, const Question& question, const SolveOptions& options,
-                     const Execution& execution, Answer& answer) {
-  price_heuristic(answer, options.heuristic, [&](HeuristicKind exact) {
-    SolveOptions again = options;
-    again.heuristic = exact;
-    again.optimise = false;
-    return solve_within(scene, question, again, execution);
-  });
-}
-
 Answer solve_explained(const Scene& scene, const Question& question, const SolveOptions& options,
                        const Execution& execution, ByProducts* keep, PathTaker* taker, KeptWays* kept) {
   Answer answer = solve_within(scene, question, options, execution, keep, taker, kept);
-  price_heuristic(scene, question, options, execution, answer);
+  tell_heuristic(scene, question, options, execution, answer);
   const Prices prices = is_blocked(answer.outcome) ? prices_of(scene, question) : Prices{};
   const std::optional<Scene> effective = effective_scene(scene, prices, execution);
   const OccupancyMap* own = effective && scene.map ? &*scene.map : nullptr;
   explain_blocked_end(effective ? *effective : scene, answer, execution, own);
-  tell_memory(answer, execution);
+  tell_process(answer, execution);
   return answer;
 }
 
@@ -598,7 +594,7 @@ Answer solve_and_keep(Scene scene, const Question& question, const SolveOptions&
   Answer answer = kept_and_solved(std::move(scene), question, options, execution, roadmap, keep);
   Question asked = question;
   asked.prices = roadmap.prices;  // the kept world has none of its own
-  price_heuristic(roadmap.world.whole(execution), asked, options, execution, answer);
+  tell_heuristic(roadmap.world.whole(execution), asked, options, execution, answer);
   explain_blocked_end(roadmap, answer, execution);
   return answer;
 }

@@ -50,10 +50,6 @@ Answer solve_explained(const Scene& scene, const Question& question, const Solve
                        const Execution& execution, ByProducts* keep = nullptr, PathTaker* taker = nullptr,
                        KeptWays* kept = nullptr);
 
-/// Says what an estimate of options cost, where it is not the straight line (solve/kinds/solve_steps.hpp).
-void price_heuristic(const Scene& scene, const Question& question, const SolveOptions& options,
-                     const Execution& execution, Answer& answer);
-
 /// Adds the by-products that solving leaves out because they cost: the roadmap of tiles. Throws Stopped.
 void make_by_products(const Scene& scene, const Question& question, const SolveOptions& options,
                       const Execution& execution, ByProducts& keep);

@@ -6,8 +6,7 @@
 #include "apps/studies/machine.hpp"
 #include "core/run/trace.hpp"
 #include "solve/answer/explanation_text.hpp"
-#include "solve/question/planner_choice.hpp"
-#include "solve/streamed/solve_streamed.hpp"
+#include "solve/kinds/kind_of_problem.hpp"
 
 namespace warren::studies {
 Scene generate_trial(const MazeOptions& maze, const SolveOptions& options, const Execution& execution,
@@ -21,16 +20,18 @@ Scene generate_trial(const MazeOptions& maze, const SolveOptions& options, const
 MazeTrial solve_trial(const Scene& scene, const MazeOptions& maze, const Question& question,
                       const SolveOptions& options, double budget_s, const Execution& execution) {
   const WallProblem problem = wall_problem(scene, question);
-  PlannerOptions planner = planner_options(options, scene, problem);
-  planner.roadmap.seed = maze.seed;
+  Question asked = question;
+  asked.contact.reset();  // these planners keep off the walls, whatever is allowed
+  SolveOptions how = options;
+  how.seed = maze.seed;
   restart_peak_memory();
   const Deadline deadline(execution.deadline, budget_s);
   Execution within = execution;
   within.deadline = &deadline;
   StageAccount account;
   within.account = &account;
-  const Answer answer = is_unmade(scene) ? solve_streamed(scene, problem, planner, within)
-                                         : solve_walls(scene, problem, planner, within, nullptr);
+  const SolveKind kind = is_unmade(scene) ? streamed_kind() : walls_kind();
+  const Answer answer = kind.solve({how, scene, asked, how.planner.value_or(PlannerKind::prm), within});
   const auto reason = answer.outcome == Outcome::stopped ? answer.stop_reason : std::nullopt;
   if (reason && is_signal(*reason)) throw Stopped{*reason};
   return {.rows = maze.rows,

@@ -234,8 +234,9 @@ inline std::uint64_t path_points(const Answer& answer) {
   return answer.handed ? answer.handed->points : answer.state_count();
 }
 
-/// What the process has held, and what was refused it. Called where an answer is complete.
-inline void tell_memory(Answer& answer, const Execution& execution) {
+/// Its threads, what it has held, and what was refused it. Called where an answer is complete.
+inline void tell_process(Answer& answer, const Execution& execution) {
+  answer.threads = thread_count(execution.threads);
   answer.peak_memory_bytes = peak_resident_bytes();
   const bool is_refused = answer.stop_reason == StopReason::memory && execution.deadline != nullptr;
   answer.wanted_memory_bytes = is_refused ? execution.deadline->wanted_bytes() : 0;

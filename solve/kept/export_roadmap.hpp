@@ -28,13 +28,6 @@ struct ExportAccount {
   friend bool operator==(const ExportAccount&, const ExportAccount&) = default;
 };
 
-/// What is exported. Refers to arrays and a function that live elsewhere.
-struct ExportedRoadmapView {
-  RoadmapParts parts;          ///< the roadmap
-  VertexDistance length;       ///< of an edge; of one that leads both ways from its smaller vertex
-  ExportOptions options = {};  ///< what of it
-};
-
 /// How often an undirected edge is written. Directed ones are written as they are.
 enum class EdgeWays : std::uint8_t { once, both };
 

@@ -230,9 +230,7 @@ void add_recipe(JsonObject& object, const Roadmap& roadmap, const Execution& exe
   add_some(object, "samples", o.roadmap.samples);
   add_some(object, "neighbours", o.roadmap.neighbours);
   add_some(object, "radius", o.roadmap.radius);
-  if (o.roadmap.star != StarRule::none) {
-    object.add("star", std::string_view(o.roadmap.star == StarRule::radius ? "radius" : "neighbours"));
-  }
+  if (const auto star = star_option(o)) object.add("star", name_of(*star));
   if (o.roadmap.attach) object.add_json("attach", attach_json(*o.roadmap.attach));
   if (o.visibility.full) object.add("full", true);
   if (o.cells.doors) object.add("doors", name_of(*o.cells.doors));

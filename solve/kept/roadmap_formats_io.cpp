@@ -53,12 +53,13 @@ class ExportedEdgesView {
  public:
   static constexpr std::size_t grain = edge_ends_a_block;
 
-  /// Counts. Throws Stopped.
-  ExportedEdgesView(const ExportedRoadmapView& roadmap, EdgeWays ways, const Execution& execution)
-      : parts_(roadmap.parts),
-        length_(roadmap.length),
-        with_unchecked_(roadmap.options.with_unchecked),
-        every_end_(roadmap.parts.directed || ways == EdgeWays::both) {
+  /// Counts. length: of an edge; of one that leads both ways from its smaller vertex. Throws Stopped.
+  ExportedEdgesView(const RoadmapParts& parts, const VertexDistance& length, const ExportOptions& options,
+                    EdgeWays ways, const Execution& execution)
+      : parts_(parts),
+        length_(length),
+        with_unchecked_(options.with_unchecked),
+        every_end_(parts.directed || ways == EdgeWays::both) {
     assert(parts_.states.size() == parts_.vertex_count() * parts_.dimension);
     assert(parts_.component.size() == parts_.vertex_count());
     assert(parts_.edge_states.size() >= edge_state_words(ends()));
@@ -502,7 +503,7 @@ ExportAccount export_roadmap(const std::string& path, const RoadmapParts& parts,
                              const ExportOptions& options, const Execution& execution) {
   const ExportFormat& format = format_of(path);
   if (execution.progress != nullptr) execution.progress->begin("export", parts.vertex_count() + 2 * parts.to.size());
-  const ExportedEdgesView edges({parts, length, options}, format.ways, execution);
+  const ExportedEdgesView edges(parts, length, options, format.ways, execution);
   if (format.write == &RoadmapExport::geojson) check_loadable(parts, edges, path);
   OutputFile file(path, execution);
   std::optional<OutputFile> second;

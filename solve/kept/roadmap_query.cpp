@@ -32,13 +32,6 @@ Question question_of(const Roadmap& roadmap, const std::vector<double>& start, c
   return question;
 }
 
-/// The answer with what does not depend on the question.
-Answer finished(Answer answer, const Execution& execution) {
-  answer.threads = thread_count(execution.threads);
-  tell_memory(answer, execution);
-  return answer;
-}
-
 /// Above, the judge's index would take longer to make than some hundred passes over the walls.
 constexpr std::size_t most_indexed_walls = std::size_t{1} << 23;
 
@@ -282,7 +275,8 @@ Answer RoadmapQuery::ask_explained(const std::vector<double>& start, const std::
     return ask_within(start, goal, again, execution, scratch);
   });
   explain_blocked_end(roadmap_, answer, execution);
-  return finished(std::move(answer), execution);
+  tell_process(answer, execution);
+  return answer;
 }
 
 Answer RoadmapQuery::ask_within(const std::vector<double>& start, const std::vector<double>& goal,
@@ -322,7 +316,8 @@ Answer RoadmapQuery::ask_within(const std::vector<double>& start, const std::vec
     answer.figures.push_back({"index", std::string("contraction")});
   }
   answer.world = account_of(scene, roadmap_.world_hash);
-  return finished(std::move(answer), execution);
+  tell_process(answer, execution);
+  return answer;
 }
 
 const KeptCells* RoadmapQuery::cells_of_lattice(const Execution& execution) const {
@@ -364,7 +359,7 @@ Answer RoadmapQuery::ask_lattice(const Question& question, const RoadmapSearchFi
   refuse_search(how);
   const WallProblem problem = wall_problem(roadmap_.world.outline(), question);
   Answer answer;
-  describe_roadmap_planner(answer, problem, planner_options(roadmap_.options, roadmap_.world.outline(), problem));
+  describe_roadmap_planner(answer, roadmap_.world.outline(), problem, roadmap_.options);
   answer.search.clear();
   answer.pipeline.clear();
   answer.figures.push_back({"index", std::string("route")});
@@ -389,7 +384,8 @@ Answer RoadmapQuery::ask_lattice(const Question& question, const RoadmapSearchFi
   } catch (const Stopped&) {  // the simple bound is left
   }
   tell_bound(answer, *scene, {.bound = how.bound}, execution);
-  return finished(std::move(answer), execution);
+  tell_process(answer, execution);
+  return answer;
 }
 
 void RoadmapQuery::settle_and_verify(Answer& answer, const WallProblem& problem, bool optimise,

@@ -92,9 +92,7 @@ class CarLattice {
   std::span<const LatticeMotion> motions_from(std::uint32_t heading) const { return motions_.from(heading); }
   bool is_free(Cell from, const LatticeMotion& motion) {
     if (stamps_) return stamps_->is_free(*free_, from, motion);
-    const Cell to{static_cast<std::uint32_t>(std::int64_t{from.x} + motion.dx),
-                  static_cast<std::uint32_t>(std::int64_t{from.y} + motion.dy)};
-    const Se2 end = pose_of(to, motion.to);
+    const Se2 end = pose_of(end_of(from, motion), motion.to);
     Se2 begin = pose_of(from, 0);
     double turn = 0.0;
     for (const SteeringPiece& piece : motion.word.used()) turn += side_of(piece.steer) * piece.length;
@@ -104,8 +102,7 @@ class CarLattice {
   /// What places make dear: nearness by the mean of both ends, areas by places a quarter of a cell apart.
   std::uint64_t extra(Cell from, std::uint32_t heading, const LatticeMotion& motion) {
     if (prices_ == nullptr) return 0;
-    const Cell to{static_cast<std::uint32_t>(std::int64_t{from.x} + motion.dx),
-                  static_cast<std::uint32_t>(std::int64_t{from.y} + motion.dy)};
+    const Cell to = end_of(from, motion);
     const double length = radius_ * motion.word.driven();
     double dear = 0.5 * (dear_at(from, heading) + dear_at(to, motion.to));
     if (prices_->has_areas()) {  // they have borders, between which a motion would slip through
@@ -204,6 +201,10 @@ class CarLattice {
   std::uint64_t refused() const { return query_.refused; }
 
  private:
+  static Cell end_of(Cell from, const LatticeMotion& motion) {
+    return {static_cast<std::uint32_t>(std::int64_t{from.x} + motion.dx),
+            static_cast<std::uint32_t>(std::int64_t{from.y} + motion.dy)};
+  }
   static constexpr double exactly = 1e-10;  // cells and radians: what is so near to a state is it
   static double cell_of(const Scene& scene, const Box& box, double turning_radius, const CarLatticeOptions& options) {
     constexpr double share = 0.125;

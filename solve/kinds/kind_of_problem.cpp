@@ -11,6 +11,13 @@
 namespace warren {
 namespace {
 
+const std::vector<SolveKind>& solve_kinds() {
+  static const std::vector<SolveKind> kinds{occupancy_kind(),   walls_kind(),        plane_kind(), turning_kind(),
+                                            fixed_angle_kind(), turning_axis_kind(), car_kind(),   arm_kind(),
+                                            lattice_kind(),     streamed_kind()};
+  return kinds;
+}
+
 const PlannerChoice* choice_in(const SolveKind& kind, PlannerKind planner) {
   const auto found =
       std::ranges::find_if(kind.planners, [&](const PlannerChoice& choice) { return choice.planner == planner; });
@@ -204,13 +211,6 @@ void check_corridors(const SolveOptions& options, const Scene& scene) {
 }
 
 }  // namespace
-
-const std::vector<SolveKind>& solve_kinds() {
-  static const std::vector<SolveKind> kinds{occupancy_kind(),   walls_kind(),        plane_kind(), turning_kind(),
-                                            fixed_angle_kind(), turning_axis_kind(), car_kind(),   arm_kind(),
-                                            lattice_kind(),     streamed_kind()};
-  return kinds;
-}
 
 void check_solver_options(const SolveOptions& options) {
   const std::optional<PlannerKind> asked = options.planner;

@@ -5,13 +5,12 @@
 //
 // To add a planner:
 // 1. its code in planners/;
-// 2. solve_options.hpp: PlannerKind, its name, all_planners, what is_tree_planner() and the others beside it say of it,
+// 2. solve_options.hpp: PlannerKind, its name, what is_tree_planner() and the others beside it say of it,
 //    and an option that nobody had yet;
-// 3. for each kind that has it a line in the `NAME_planners` of the kind's file (here and
-// solve/streamed/solve_walls.cpp)
-//    and a branch in what solves it. The line has the options that the planner takes beyond planner and seed (every
-//    other one is refused, by name, before the planner sees it), and the words of questions that it respects
-//    (asked_words.hpp: prices, restrictions, goals; the same);
+// 3. for each kind that has it a line in the `NAME_planners` of the kind's file (here and in solve/streamed) and a
+//    branch in what solves it. The line has the options that the planner takes beyond planner and seed (every other one
+//    is refused, by name, before the planner sees it), and the words of questions that it respects (asked_words.hpp:
+//    prices, restrictions, goals; the same);
 // 4. for bodies that sample, whose branch is shared: plan(), plan_roadmap() or grow_trees() of SampledSolve
 //    (sampled_solve.hpp), planned_worlds.hpp and planned_*.cpp, where it is compiled;
 // 5. the help (tools/words/planner_words.cpp), Python's (apps/python/warren/_worlds.pyi, _errors.py), the page's
@@ -156,8 +155,6 @@ SolveKind car_kind();
 SolveKind arm_kind();
 SolveKind occupancy_kind();
 SolveKind lattice_kind();
-
-const std::vector<SolveKind>& solve_kinds();
 
 /// The planner that shall solve a problem, and the kind it belongs to.
 struct ChosenSolver {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -31,29 +32,15 @@ namespace warren {
 
 namespace detail {
 
-inline void add_numbers(Vec2 p, std::size_t /*width*/, RawVector<double>& numbers) {
-  numbers.insert(numbers.end(), {p.x, p.y});
-}
-inline void add_numbers(const Se2& p, std::size_t /*width*/, RawVector<double>& numbers) {
-  numbers.insert(numbers.end(), {p.x, p.y, p.theta});
-}
-/// Of an arm: as many as it has variables.
-template <std::size_t N>
-void add_numbers(const std::array<double, N>& q, std::size_t width, RawVector<double>& numbers) {
-  numbers.insert(numbers.end(), q.begin(), q.begin() + static_cast<std::ptrdiff_t>(width));
-}
+/// What a state is, be it a point, a pose or joints; an arm has zeros behind those of its variables.
+template <class State>
+using NumbersOf = std::array<double, sizeof(State) / sizeof(double)>;
 
 template <class State>
 State state_of(std::span<const double> numbers) {
-  if constexpr (std::is_same_v<State, Vec2>) {
-    return {numbers[0], numbers[1]};
-  } else if constexpr (std::is_same_v<State, Se2>) {
-    return {numbers[0], numbers[1], numbers[2]};
-  } else {
-    State state{};
-    std::copy_n(numbers.begin(), numbers.size(), state.begin());
-    return state;
-  }
+  NumbersOf<State> all{};
+  std::ranges::copy(numbers, all.begin());
+  return std::bit_cast<State>(all);
 }
 
 /// Has it joints?
@@ -172,9 +159,7 @@ class OldMotions {
     return {numbers[0], numbers[1], numbers.size() > 2 ? numbers[2] : 0.0};
   }
   std::optional<VertexId> vertex_of(const State& state) const {
-    RawVector<double> numbers;
-    add_numbers(state, W::dimension, numbers);
-    const std::pair<Key, VertexId> least{key_of(numbers), 0};
+    const std::pair<Key, VertexId> least{key_of(std::bit_cast<NumbersOf<State>>(state)), 0};
     const auto found = std::lower_bound(vertices_.begin(), vertices_.end(), least);
     return found == vertices_.end() || found->first != least.first ? std::nullopt : std::optional(found->second);
   }
@@ -300,7 +285,8 @@ BuiltArrays build_sampled(const SolveRequest& request) {
   arrays.states.reserve(built.states.size() * arrays.dimension);
   for (const State& state : built.states) {
     execution.poll(arrays.states.size());
-    detail::add_numbers(state, arrays.dimension, arrays.states);
+    const auto numbers = std::bit_cast<detail::NumbersOf<State>>(state);
+    arrays.states.insert(arrays.states.end(), numbers.begin(), numbers.begin() + arrays.dimension);
   }
   arrays.candidates = std::move(built.candidates);
   arrays.edge_states = std::move(built.edge_states);

@@ -44,14 +44,6 @@ PoseProblem car_problem(const Scene& scene, const Question& question, const CarF
   return problem;
 }
 
-VerifiedCar verified_car(const RobotSpec& robot) {
-  return {.turning_radius = robot.turning_radius,
-          .reverses = robot.steering != SteeringKind::dubins,
-          .turns_on_spot = robot.steering == SteeringKind::differential,
-          .radius = robot.radius,
-          .outline = robot.outline};
-}
-
 struct OverLattice {
   Path<Se2> path;
   LatticeSolution found;
@@ -205,7 +197,7 @@ class Car : public PoseBody {
     return poses;
   }
   Verification judged(std::span<const Se2> poses, const PoseVerifyOptions& options) const {
-    return verify_car(scene_, verified_car(problem_.robot), poses, options, execution_, judged_);
+    return verify_car(scene_, problem_.robot, poses, options, execution_, judged_);
   }
   /// As the judge has it.
   double paid(const World& world, const Path<Se2>& path) const {
@@ -352,7 +344,7 @@ Verdict recheck_car(const Scene& scene, const Question& question, const Recorded
                     const Execution& execution) {
   const PoseProblem problem = pose_problem(scene, question, body_words);
   check_state_width(answer, 3, body_words);
-  return {verify_car(scene, verified_car(problem.robot), poses_of(answer.states), verify_options(problem), execution),
+  return {verify_car(scene, problem.robot, poses_of(answer.states), verify_options(problem), execution),
           problem.general()};
 }
 

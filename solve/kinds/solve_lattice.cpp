@@ -520,11 +520,7 @@ class LatticeSolve {
   Answer answer_;
 };
 
-Answer solve_lattice(const SolveRequest& request) {
-  LatticeSolve solve(request);
-  answer_within_limits(solve.answer(), [&] { solve.run(); });
-  return std::move(solve.answer());
-}
+Answer solve_lattice(const SolveRequest& request) { return answered(LatticeSolve(request)); }
 
 }  // namespace
 

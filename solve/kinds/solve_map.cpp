@@ -134,19 +134,19 @@ void prove_apart(Answer& answer, const OccupancyMap& map, const Bitmap& closed, 
 /// One solve by grid: the steps share the question and fill in the answer. What is not found may be proved infeasible.
 class CellSolve {
  public:
-  CellSolve(const SolveRequest& request, const WallProblem& problem)
+  explicit CellSolve(const SolveRequest& request)
       : request_(request),
         map_(*request.scene.map),
-        problem_(problem),
-        chooses_(!problem.rule.empty() || !request.options.trees.via.empty()) {
+        problem_(map_problem(request.scene, request.question)),
+        chooses_(!problem_.rule.empty() || !request.options.trees.via.empty()) {
     {
       const StageTimer timer(request.execution, "index", answer_.seconds.index, map_.blocked.size());
-      const bool keeps = request.kept != nullptr && !problem.prices.empty() && map_.water.empty();
-      if (keeps && request.kept->update(map_, problem, request.execution)) {
+      const bool keeps = request.kept != nullptr && !problem_.prices.empty() && map_.water.empty();
+      if (keeps && request.kept->update(map_, problem_, request.execution)) {
         kept_ = request.kept;
         prices_ = &kept_->prices();
       } else {
-        prices_ = take_prices(own_prices_, map_, problem, request.execution);
+        prices_ = take_prices(own_prices_, map_, problem_, request.execution);
       }
     }
     if (prices_ && request.options.grid.diagonal) {
@@ -161,7 +161,7 @@ class CellSolve {
     if (grid_.method == GridMethod::jump_points && grid_.diagonal != Diagonal::sqrt2) {
       throw UsageError("@search: jump points need @diagonal sqrt2");
     }
-    answer_.problem = problem.general();
+    answer_.problem = problem_.general();
     answer_.planner = name_of(PlannerKind::grid);
     answer_.seed = request.options.seed;
     if (request.options.optimise) answer_.options.push_back({"optimise", true});
@@ -170,7 +170,13 @@ class CellSolve {
   }
 
   void run() {
-    if (chooses_ || prices_) return run_chosen();
+    chooses_ || prices_ ? run_chosen() : run_to_goal();
+    add_alternatives();
+  }
+  Answer& answer() { return answer_; }
+
+ private:
+  void run_to_goal() {
     answer_.outcome = settled_on_map(Outcome::start_blocked, map_, problem_, request_.execution);
     if (answer_.outcome != Outcome::not_connected) return;
     index();
@@ -198,9 +204,7 @@ class CellSolve {
         map_, reached, closed_, blocked(), ways().weights(), distances(), leg_prices(prices_, scratch()), parts};
     take_alternatives(answer_, route, asked, request_.execution);
   }
-  Answer& answer() { return answer_; }
 
- private:
   /// Where there is more to decide than the way to one place.
   void run_chosen() {
     if (!stands_free_on_map(map_, problem_, problem_.start, request_.execution)) {
@@ -370,15 +374,6 @@ class CellSolve {
   std::optional<WaysOverCells> ways_;
   Answer answer_;
 };
-
-Answer solve_over_cells(const SolveRequest& request) {
-  CellSolve solve(request, map_problem(request.scene, request.question));
-  answer_within_limits(solve.answer(), [&] {
-    solve.run();
-    solve.add_alternatives();
-  });
-  return std::move(solve.answer());
-}
 
 /// For prm, lazy-prm, rrt and rrt-connect. Motions are certified against the closed squares of blocked cells, wherever
 /// between them they lead.
@@ -556,10 +551,8 @@ constexpr PlannerChoice occupancy_planners[] = {
     {PlannerKind::voronoi, OptionSet{Option::objective, Option::search, Option::queue, Option::bound},
      restriction_words | AskedWords{AskedWord::goal}}};
 
-bool fits_occupancy(const Scene& scene, const RobotSpec& robot) { return scene.map && is_round(robot); }
-
 Answer solve_occupancy(const SolveRequest& request) {
-  if (request.planner == PlannerKind::grid) return solve_over_cells(request);
+  if (request.planner == PlannerKind::grid) return answered(CellSolve(request));
   const std::vector<std::vector<double>>& via = request.options.trees.via;
   if (!via.empty()) return solve_through(request, via, way_point, solve_occupancy);
   return rule_of(request.scene, request.question).empty() ? solve_to_place(request) : solve_chosen(request);
@@ -592,7 +585,7 @@ Answer solve_on_skeleton(const SolveRequest& request) {
 
 SolveKind occupancy_kind() {
   SolveKind kind{"a point or disc on an occupancy map",
-                 fits_occupancy,
+                 [](const Scene& scene, const RobotSpec& robot) { return scene.map && is_round(robot); },
                  occupancy_planners,
                  usually<PlannerKind::grid>,
                  solve_occupancy,

@@ -323,8 +323,6 @@ constexpr PlannerChoice plane_planners[] = {
     {PlannerKind::voronoi, OptionSet{Option::objective, Option::search, Option::queue, Option::bound},
      restriction_words | AskedWords{AskedWord::goal}}};
 
-bool fits_plane(const Scene&, const RobotSpec& robot) { return is_round(robot); }
-
 /// The shortest path there is: of a point, which may touch what it goes around, unless the contrary is asked for, and
 /// of a disc, unless there are very many corners, or options are given that are none of its.
 PlannerKind usual_plane_planner(const SolveOptions& options, const Scene& scene, const Question& question) {
@@ -475,7 +473,7 @@ Answer solve_on_medial_axis(const SolveRequest& request) {
 
 SolveKind plane_kind() {
   return {"a point or disc among polygons",
-          fits_plane,
+          [](const Scene&, const RobotSpec& robot) { return is_round(robot); },
           plane_planners,
           usual_plane_planner,
           solve_plane,

@@ -60,14 +60,17 @@ VerifyOptions verify_options(const WallProblem& problem) {
           .goal = problem.goal};
 }
 
-void describe_roadmap_planner(Answer& answer, const WallProblem& problem, const PlannerOptions& options) {
+PlannerOptions describe_roadmap_planner(Answer& answer, const Scene& scene, const WallProblem& problem,
+                                        const SolveOptions& asked) {
+  const PlannerOptions options = planner_options(asked, scene, problem);
   answer.problem = problem.general();
   answer.planner = name_of(options.planner);
   if (options.planner == PlannerKind::prm) answer.pipeline = name_of(options.pipeline);
   answer.sampler = name_of(options.roadmap.sampler);
   answer.search = name_of(options.roadmap.search);
   answer.seed = options.roadmap.seed;
-  answer.options = options.given;
+  answer.options = given_figures(asked);
+  return options;
 }
 
 void take_solution(Answer& answer, Solution<Vec2> solution) {

@@ -27,8 +27,10 @@ PlannerKind usually(const SolveOptions&, const Scene&, const Question&) {
   return planner;
 }
 
-/// Problem, planner and options, as the answer repeats them; for planners that build roadmaps of samples.
-void describe_roadmap_planner(Answer& answer, const WallProblem& problem, const PlannerOptions& options);
+/// The options that planner_options() gives planners that build roadmaps of samples; problem, planner and options as
+/// the answer repeats them.
+PlannerOptions describe_roadmap_planner(Answer& answer, const Scene& scene, const WallProblem& problem,
+                                        const SolveOptions& asked);
 
 /// Outcome, path, sizes, counters and times of a solution.
 void take_solution(Answer& answer, Solution<Vec2> solution);
@@ -105,6 +107,13 @@ void answer_within_limits(Answer& answer, const Solve& solve) {
   if (const auto reason = stopped_by(solve)) make_stopped(answer, *reason);
   if (!answer.verified) claim_nothing(answer);
   answer.solve_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+/// The same of a solve whose steps share its answer.
+template <class Solve>
+Answer answered(Solve solve) {
+  answer_within_limits(solve.answer(), [&] { solve.run(); });
+  return std::move(solve.answer());
 }
 
 // What is said of start and goal where a planner calls one of them blocked. A planner may take a disc for the body that

@@ -206,10 +206,6 @@ class AxisSolve {
   Answer answer_;
 };
 
-Answer solve_turning_axis(const SolveRequest& request) { return AxisSolve(request).run(); }
-
-BuiltArrays build_turning_axis(const SolveRequest& request) { return of_disc(request, build_geometric); }
-
 std::unique_ptr<RoadmapSession> open_turning_axis(const SolveRequest& request, const RoadmapArrays& arrays,
                                                   const ConnectionRule& rule) {
   return of_disc(request, [&](const SolveRequest& disc) { return open_geometric(disc, arrays, rule); });
@@ -340,9 +336,9 @@ SolveKind turning_axis_kind() {
           fits_turning,
           turning_axis_planners,
           usually<PlannerKind::voronoi>,
-          solve_turning_axis,
+          [](const SolveRequest& request) { return AxisSolve(request).run(); },
           nullptr,
-          build_turning_axis,
+          [](const SolveRequest& request) { return of_disc(request, build_geometric); },
           open_turning_axis};
 }
 

@@ -94,8 +94,6 @@ class TimedPath {
   TimedPath(const PathLegs& legs, const TravelLimits& limits, const Execution& execution);
 
   double duration_s() const { return times_.back(); }
-  /// When the body leaves state i, in s.
-  double time_s(std::size_t i) const { return times_[i]; }
   /// 0 <= t <= duration_s().
   PathMoment at(double t) const;
   /// At a share of a leg.

@@ -147,8 +147,6 @@ PlannerOptions planner_options(const SolveOptions& asked, const Scene& scene, co
   options.planner = asked.planner.value_or(usual_roadmap_planner(asked, scene));
   check_planner(asked, options.planner, options.roadmap.search);
   options.pipeline = pipeline_for(asked, options, scene, problem.reach());
-  options.optimise = asked.optimise;
-  options.given = given_figures(asked);
   return options;
 }
 

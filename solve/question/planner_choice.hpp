@@ -3,13 +3,10 @@
 // the world.
 #pragma once
 
-#include <vector>
-
 #include "planners/graph/roadmap_options.hpp"
 #include "planners/grid/grid_search.hpp"
 #include "planners/trees/rrt_options.hpp"
 #include "scenes/scene/scene.hpp"
-#include "solve/question/figure.hpp"
 #include "solve/question/question.hpp"
 #include "solve/question/solve_options.hpp"
 
@@ -36,8 +33,6 @@ struct PlannerOptions {
   PlannerKind planner = PlannerKind::prm;
   RoadmapOptions roadmap;
   PipelineKind pipeline = PipelineKind::plain;  ///< only for prm
-  bool optimise = false;                        ///< pull the path taut after the search
-  std::vector<NamedFigure> given;               ///< what was asked for beyond planner, sampler, search and seed
 };
 
 /// Checks contradictions that need no world; throws UsageError, also for planners that build no roadmap of samples.

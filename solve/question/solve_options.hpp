@@ -46,12 +46,11 @@ constexpr auto enum_names(PlannerKind) {
                                           "anytime"};
 }
 /// In the order of the enumeration.
-inline constexpr PlannerKind all_planners[] = {PlannerKind::prm,         PlannerKind::lazy_prm,
-                                               PlannerKind::visibility,  PlannerKind::cells,
-                                               PlannerKind::voronoi,     PlannerKind::rrt,
-                                               PlannerKind::rrt_connect, PlannerKind::grid,
-                                               PlannerKind::rrt_star,    PlannerKind::informed_rrt_star,
-                                               PlannerKind::anytime};
+inline constexpr auto all_planners = [] {
+  std::array<PlannerKind, enum_names(PlannerKind{}).size()> all{};
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<PlannerKind>(i);
+  return all;
+}();
 /// Does it search a roadmap of samples?
 constexpr bool is_roadmap_planner(PlannerKind planner) {
   return planner == PlannerKind::prm || planner == PlannerKind::lazy_prm;

@@ -19,8 +19,10 @@
 #include "solve/answer/world_account.hpp"
 #include "solve/answer/write_answer_io.hpp"
 #include "solve/explain/blocked_end.hpp"
+#include "solve/kinds/kind_of_problem.hpp"
 #include "solve/kinds/lower_bound.hpp"
 #include "solve/kinds/solve_steps.hpp"
+#include "solve/question/planner_choice.hpp"
 #include "verify/streamed/looked_up_walls.hpp"
 
 namespace warren {
@@ -125,15 +127,18 @@ class JudgedPath : public PathTaker {
 /// One solve: the steps share the question and fill in the answer.
 class StreamedSolve {
  public:
-  StreamedSolve(const Scene& scene, const WallProblem& problem, const PlannerOptions& options,
-                const Execution& execution, const StreamedHelp& help)
-      : scene_(scene), problem_(problem), options_(options), execution_(execution), help_(help) {
+  StreamedSolve(const Scene& scene, const Question& question, const SolveOptions& options, const Execution& execution,
+                const StreamedHelp& help)
+      : scene_(scene),
+        problem_(keeping_off(scene, question, "prm keeps off the walls")),
+        options_(describe_roadmap_planner(answer_, scene, problem_, options)),
+        execution_(execution),
+        help_(help) {
     if (options.optimise) throw UsageError("@optimise: pulls no path taut among walls that are not held");
-    if (!(problem.reach() < most_cell_clearance * (1 - 1e-8))) {
+    if (!(problem_.reach() < most_cell_clearance * (1 - 1e-8))) {
       throw UsageError(
           "@clearance: with the body's radius it must be below half a cell where walls are made tile by tile");
     }
-    describe_roadmap_planner(answer_, problem, options);
   }
 
   void run() {
@@ -207,22 +212,25 @@ class StreamedSolve {
   }
 
   const Scene& scene_;
-  const WallProblem& problem_;
-  const PlannerOptions& options_;
+  WallProblem problem_;
+  Answer answer_;
+  PlannerOptions options_;
   const Execution& execution_;
   const StreamedHelp& help_;
   std::unique_ptr<StreamedWalls> walls_;
-  Answer answer_;
 };
 
 constexpr PlannerChoice streamed_planners[] = {{PlannerKind::prm, prm_takes | OptionSet{Option::pipeline}}};
 
-bool fits_streamed(const Scene& scene, const RobotSpec& robot) { return is_unmade(scene) && is_round(robot); }
+/// Makes the walls, plans, verifies; all of it is in solve_s. Throws UsageError for what can't be asked; a stop is an
+/// answer.
+Answer solve_streamed(const Scene& scene, const Question& question, const SolveOptions& options,
+                      const Execution& execution, const StreamedHelp& help) {
+  return answered(StreamedSolve(scene, question, options, execution, help));
+}
 
 Answer solve_request(const SolveRequest& request) {
-  const WallProblem problem = keeping_off(request.scene, request.question, "prm keeps off the walls");
-  return solve_streamed(request.scene, problem, planner_options(request.options, request.scene, problem),
-                        request.execution, {.taker = request.taker});
+  return solve_streamed(request.scene, request.question, request.options, request.execution, {.taker = request.taker});
 }
 
 Verdict recheck_streamed(const Scene& scene, const Question& question, const RecordedAnswer& answer,
@@ -251,13 +259,6 @@ std::unique_ptr<StreamedWalls> streamed_walls(const Scene& unmade, const Executi
   return std::make_unique<FormulaWalls>(*unmade.maze, *unmade.formula, execution, kept);
 }
 
-Answer solve_streamed(const Scene& scene, const WallProblem& problem, const PlannerOptions& options,
-                      const Execution& execution, const StreamedHelp& help) {
-  StreamedSolve solve(scene, problem, options, execution, help);
-  answer_within_limits(solve.answer(), [&] { solve.run(); });
-  return std::move(solve.answer());
-}
-
 Answer solve_streamed_within(const Scene& scene, const Question& question, const SolveOptions& options,
                              const Execution& execution, const StreamedHelp& help) {
   question.validate();
@@ -265,17 +266,15 @@ Answer solve_streamed_within(const Scene& scene, const Question& question, const
   check_solver_options(options);
   if (!choose_solver(options, scene, question).kind->unmade) throw UsageError("@pipeline: these walls are held");
   if (!question.route.keep_to.empty()) throw UsageError("@keep_to: nobody holds these walls, to judge an older path");
-  const WallProblem problem = keeping_off(scene, question, "prm keeps off the walls");
-  Answer answer = solve_streamed(scene, problem, planner_options(options, scene, problem), execution, help);
+  Answer answer = solve_streamed(scene, question, options, execution, help);
   tell_bound(answer, scene, options, execution);
-  answer.threads = thread_count(execution.threads);
-  tell_memory(answer, execution);
+  tell_process(answer, execution);
   return answer;
 }
 
 SolveKind streamed_kind() {
   SolveKind kind{"a point or disc in a maze made tile by tile",
-                 fits_streamed,
+                 [](const Scene& scene, const RobotSpec& robot) { return is_unmade(scene) && is_round(robot); },
                  streamed_planners,
                  usually<PlannerKind::prm>,
                  solve_request,

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// prm and lazy-prm among walls, held (solve_walls.cpp) or left out of the scene (is_unmade), for those who have a
-// problem and options already. Where the walls come from that are left out: for the planner, and for the judge, who
-// reads files by code of its own.
+// prm in mazes whose walls are left out of the scene (is_unmade), for those who have help for it. Where the walls come
+// from: for the planner, and for the judge, who reads files by code of its own.
 #pragma once
 
 #include <cstddef>
@@ -14,12 +13,9 @@
 #include "core/plane/cell_walls.hpp"
 #include "core/run/execution.hpp"
 #include "parallel/chunks.hpp"
-#include "planners/graph/roadmap_arrays.hpp"
 #include "planners/mazes/tiled_prm_lattice.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/answer/answer.hpp"
-#include "solve/kinds/kind_of_problem.hpp"
-#include "solve/question/planner_choice.hpp"
 #include "solve/question/question.hpp"
 #include "solve/question/solve_options.hpp"
 #include "verify/streamed/verify_cells.hpp"
@@ -60,12 +56,6 @@ class StreamedTeam : NotCopied {
   virtual JudgesElsewhere& judges() = 0;
 };
 
-/// Solves from walls in memory to path verified; the seconds are solve_s. Never throws Stopped. A path that fails its
-/// verification is a bug and throws std::logic_error. `keep` receives the roadmap for pictures; nullptr: not wanted.
-/// `asked`: a roadmap that is there already. Fills in what belongs to the work; world and threads are the caller's.
-Answer solve_walls(const Scene& scene, const WallProblem& problem, const PlannerOptions& options,
-                   const Execution& execution, PlannedRoadmap<Vec2>* keep, const RoadmapAsked& asked = {});
-
 /// What a streamed solve may be given beside the question; none of it changes the answer.
 struct StreamedHelp {
   PathTaker* taker = nullptr;    ///< receives the path piece by piece, before it is verified; see Answer::handed
@@ -73,13 +63,8 @@ struct StreamedHelp {
   StreamedTeam* team = nullptr;  ///< shares the work
 };
 
-/// Makes the walls, plans, verifies; all of it is in solve_s. Throws UsageError for what can't be asked; a stop is an
-/// answer. Fills in all of Answer but threads and peak memory.
-Answer solve_streamed(const Scene& scene, const WallProblem& problem, const PlannerOptions& options,
-                      const Execution& execution, const StreamedHelp& help = {});
-
-/// The same from question and options, as solve_within(): for whoever has help. Throws UsageError where the walls are
-/// held.
+/// As solve_within(): makes the walls, plans, verifies; all of it is in solve_s. Throws UsageError for what can't be
+/// asked, and where the walls are held; a stop is an answer.
 Answer solve_streamed_within(const Scene& scene, const Question& question, const SolveOptions& options,
                              const Execution& execution, const StreamedHelp& help);
 

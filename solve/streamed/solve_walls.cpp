@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Joins the worlds of walls with the roadmap planners: scene and options in, verified answer out.
+// A point or disc among walls that are held: joins their worlds with the roadmap planners.
 
 #include <cmath>
 #include <optional>
@@ -15,7 +15,6 @@
 #include "solve/kinds/sampled_roadmap.hpp"
 #include "solve/kinds/sampled_solve.hpp"
 #include "solve/kinds/solve_steps.hpp"
-#include "solve/streamed/solve_streamed.hpp"
 #include "worlds/plane/maze_world.hpp"
 
 namespace warren {
@@ -47,30 +46,39 @@ bool proves_infeasible(const Scene& scene, Vec2 start, Vec2 goal, const Executio
   return !flood_connects(cells, cell_of(start, maze), cell_of(goal, maze), execution);
 }
 
+WallProblem problem_of(const SolveRequest& request) {
+  return keeping_off(request.scene, request.question, "prm and lazy-prm keep off the walls");
+}
+
 /// One solve: the steps share the question and fill in the answer.
 class WallSolve {
  public:
-  WallSolve(const Scene& scene, const WallProblem& problem, const PlannerOptions& options, const Execution& execution,
-            const RoadmapAsked& asked)
-      : scene_(scene), problem_(problem), options_(options), execution_(execution), asked_(asked) {
-    describe_roadmap_planner(answer_, problem, options);
-    if (asked.session != nullptr && options.planner == PlannerKind::prm)
-      answer_.pipeline = name_of(PipelineKind::plain);
+  explicit WallSolve(const SolveRequest& request)
+      : request_(request),
+        scene_(request.scene),
+        problem_(problem_of(request)),
+        options_(describe_roadmap_planner(answer_, scene_, problem_, request.options)),
+        execution_(request.execution) {
+    if (is_kept() && options_.planner == PlannerKind::prm) answer_.pipeline = name_of(PipelineKind::plain);
   }
 
-  void run(PlannedRoadmap<Vec2>* keep) {
-    plan(keep);
-    settle_blocked_ends(answer_, scene_, problem_, execution_, asked_.judged());
+  void run() {
+    plan(request_.keep != nullptr ? &request_.keep->roadmap : nullptr);
+    settle_blocked_ends(answer_, scene_, problem_, execution_, request_.asked.judged());
     if (answer_.outcome == Outcome::not_connected) proved_infeasible();
     tell_cause();
-    if (options_.optimise && answer_.outcome == Outcome::solved) optimise();
-    verify_solved(answer_, scene_, problem_, execution_, asked_.judged());
+    if (request_.options.optimise && answer_.outcome == Outcome::solved) optimise();
+    verify_solved(answer_, scene_, problem_, execution_, request_.asked.judged());
   }
   Answer& answer() { return answer_; }
 
  private:
+  bool is_kept() const { return request_.asked.session != nullptr; }
+  const SessionIn<MazeWorld>& session() const {
+    return static_cast<const SessionIn<MazeWorld>&>(*request_.asked.session);
+  }
   const MazeWorld& indexed_world() {
-    if (asked_.session != nullptr) return *static_cast<const SessionIn<MazeWorld>&>(*asked_.session).world;
+    if (is_kept()) return *session().world;
     if (!world_) {
       const StageTimer timer(execution_, "index", answer_.seconds.index, scene_.walls.size());
       world_.emplace(scene_, problem_.reach(), execution_);
@@ -78,16 +86,11 @@ class WallSolve {
     return *world_;
   }
   void plan(PlannedRoadmap<Vec2>* keep) {
-    if (asked_.session != nullptr) {
-      const auto& session = static_cast<const SessionIn<MazeWorld>&>(*asked_.session);
-      take_solution(answer_, ask_roadmap(*session.roadmap, problem_.start, problem_.goal, options_.roadmap, execution_,
-                                         *asked_.scratch, keep));
-      return;
+    if (is_kept()) {
+      return take_solution(answer_, ask_roadmap(*session().roadmap, problem_.start, problem_.goal, options_.roadmap,
+                                                execution_, *request_.asked.scratch, keep));
     }
-    if (options_.pipeline != PipelineKind::plain) {
-      take_solution(answer_, plan_tiles());
-      return;
-    }
+    if (options_.pipeline != PipelineKind::plain) return take_solution(answer_, plan_tiles());
     const MazeWorld& world = indexed_world();
     if (grows() && ends_are_free(world) && proved_infeasible()) return;
     const auto planner = options_.planner == PlannerKind::prm ? prm<Vec2> : lazy_prm<Vec2>;
@@ -130,18 +133,14 @@ class WallSolve {
     answer_.path = taut_path(world.walls(), answer_.path, world.planning_clearance(), execution_);
   }
 
+  const SolveRequest& request_;
   const Scene& scene_;
-  const WallProblem& problem_;
-  const PlannerOptions& options_;
-  const Execution& execution_;
-  RoadmapAsked asked_;
-  std::optional<MazeWorld> world_;  // tiles need none; made where it is first asked for
+  WallProblem problem_;
   Answer answer_;
+  PlannerOptions options_;
+  const Execution& execution_;
+  std::optional<MazeWorld> world_;  // tiles need none; made where it is first asked for
 };
-
-WallProblem problem_of(const SolveRequest& request) {
-  return keeping_off(request.scene, request.question, "prm and lazy-prm keep off the walls");
-}
 
 /// As a body of sampled_roadmap.hpp.
 class PointAmongWalls : public UsualBody<WallProblem> {
@@ -156,19 +155,6 @@ class PointAmongWalls : public UsualBody<WallProblem> {
 constexpr AskedWords walls_words{AskedWord::goal};
 constexpr PlannerChoice walls_planners[] = {{PlannerKind::prm, plane_takes, walls_words},
                                             {PlannerKind::lazy_prm, plane_takes, walls_words}};
-
-bool fits_walls(const Scene& scene, const RobotSpec& robot) { return is_round(robot) && scene.polygons.empty(); }
-
-PlannerKind usual_walls_planner(const SolveOptions& options, const Scene& scene, const Question&) {
-  return usual_roadmap_planner(options, scene);
-}
-
-Answer solve_walls(const SolveRequest& request) {
-  const WallProblem problem = problem_of(request);
-  const PlannerOptions options = planner_options(request.options, request.scene, problem);
-  PlannedRoadmap<Vec2>* keep = request.keep != nullptr ? &request.keep->roadmap : nullptr;
-  return solve_walls(request.scene, problem, options, request.execution, keep, request.asked);
-}
 
 /// The roadmap of the tiled pipeline, for a picture: tiles keep none, so the plain stages build it again, for mazes
 /// whose edges can be told apart in a picture.
@@ -185,19 +171,14 @@ void make_roadmap(const SolveRequest& request) {
 
 }  // namespace
 
-Answer solve_walls(const Scene& scene, const WallProblem& problem, const PlannerOptions& options,
-                   const Execution& execution, PlannedRoadmap<Vec2>* keep, const RoadmapAsked& asked) {
-  WallSolve solve(scene, problem, options, execution, asked);
-  answer_within_limits(solve.answer(), [&] { solve.run(keep); });
-  return std::move(solve.answer());
-}
-
 SolveKind walls_kind() {
   return {"a point or disc among walls",
-          fits_walls,
+          [](const Scene& scene, const RobotSpec& robot) { return is_round(robot) && scene.polygons.empty(); },
           walls_planners,
-          usual_walls_planner,
-          solve_walls,
+          [](const SolveOptions& options, const Scene& scene, const Question&) {
+            return usual_roadmap_planner(options, scene);
+          },
+          [](const SolveRequest& request) { return answered(WallSolve(request)); },
           nullptr,  // plane_kind() judges
           build_sampled<PointAmongWalls>,
           open_sampled<PointAmongWalls>,

@@ -85,9 +85,8 @@ void AnswerCommand::answer(const Run& run) {
   if (answer_.world.source.empty()) answer_.world.source = arguments_.operand(0);
   answer_.seconds.read = before.read;
   answer_.seconds.generate += before.generate;
-  answer_.threads = run.threads();
   answer_.tells_path = !arguments_.has("--no-path");
-  tell_memory(answer_, run.execution());
+  tell_process(answer_, run.execution());
 }
 
 /// What is on disk says the same as the exit code: a stop while something is written makes it a stopped answer, one

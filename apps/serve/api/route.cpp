@@ -34,26 +34,25 @@ Route api_route(const std::vector<std::string_view>& words) {
 }
 
 Route place_of(std::string_view path, const TileGrid& grid, std::string_view hash) {
-  const std::vector<std::string_view> words = split(path, "/");  // the first one is empty
+  std::vector<std::string_view> words = split(path, "/");  // the first one is empty
   if (words.size() == 2) return {.place = Place::file, .name = std::string(words[1].empty() ? "index.html" : words[1])};
   if (words[1] == "api") return api_route(words);
-  if (words.size() == 5 && words[1] == "tiles") return tile_route(words[2], words[3], words[4], grid);
-  if (words.size() == 7 && words[1] == "v" && words[2] == hash && words[3] == "tiles") {
-    Route route = tile_route(words[4], words[5], words[6], grid);
-    route.has_its_hash = true;
+  const bool has_hash = words.size() > 4 && words[1] == "v" && words[2] == hash;
+  if (has_hash) words.erase(words.begin() + 1, words.begin() + 3);
+  const bool is_of_layers = has_hash && words[1] == "layers";
+  if (is_of_layers && words.size() == 4 && words[3] == "legend") {
+    return {.place = Place::legend, .name = std::string(words[2])};
+  }
+  const std::size_t of_tile = is_of_layers ? 3 : 2;
+  if (words.size() != of_tile + 3 || !(is_of_layers || words[1] == "tiles")) refuse_path();
+  Route route = tile_route(words[of_tile], words[of_tile + 1], words[of_tile + 2], grid);
+  if (!is_of_layers) {
+    route.has_its_hash = has_hash;
     return route;
   }
-  const bool is_of_layers = words.size() >= 6 && words[1] == "v" && words[2] == hash && words[3] == "layers";
-  if (is_of_layers && words.size() == 6 && words[5] == "legend") {
-    return {.place = Place::legend, .name = std::string(words[4])};
-  }
-  if (is_of_layers && words.size() == 8) {
-    Route route = tile_route(words[5], words[6], words[7], grid);
-    route.place = Place::layer;
-    route.name = words[4];
-    return route;
-  }
-  refuse_path();
+  route.place = Place::layer;
+  route.name = words[2];
+  return route;
 }
 
 }  // namespace

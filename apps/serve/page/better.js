@@ -43,10 +43,10 @@ function wayInWords(way) {
 /// The first `count` of them: the last one plainly, some before it faintly.
 function drawWays(count) {
   hideLines();
-  const dark = document.documentElement.classList.contains("dark"), shownWays = better.ways.slice(Math.max(0, count - 8), count);
+  const shownWays = better.ways.slice(Math.max(0, count - 8), count);
   better.lines = L.layerGroup(shownWays.map((way, i) => {
     const newest = i + 1 === shownWays.length, points = way.chains.map(chain => chain.map(p => L.latLng(p[1], p[0])));
-    return L.polyline(points, {color: dark ? "#ff6b81" : "#c8102e", weight: newest ? 3 : 2, opacity: newest ? 0.9 : 0.1 + 0.4 * i / shownWays.length, interactive: false});
+    return L.polyline(points, {color: pathColor(), weight: newest ? 3 : 2, opacity: newest ? 0.9 : 0.1 + 0.4 * i / shownWays.length, interactive: false});
   })).addTo(map);
 }
 function hideLines() {

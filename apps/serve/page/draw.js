@@ -16,17 +16,7 @@ function takeToken() {
 async function sendChange(change) {
   if (drawing.busy) return null;
   drawing.busy = true;
-  const headers = {"Content-Type": "application/json"};
-  if (token()) headers.Authorization = "Bearer " + token();
-  let json = null;
-  try {
-    const reply = await fetch("api/update", {method: "POST", headers, body: JSON.stringify(change)});
-    json = await reply.json();
-  } catch (error) {
-    say("The service does not answer any more.");
-  }
-  if (json && json.error) say(json.error.message);
-  const made = json && !json.error ? json : null;
+  const made = await posted("api/update", JSON.stringify(change), token() ? {Authorization: "Bearer " + token()} : {});
   if (made) await takeWorld();
   drawing.busy = false;
   return made;

@@ -94,9 +94,9 @@ async function checkGraph() {
   checkGraph();
 }
 /// What the service answers, as JSON; nothing where it refuses, which is said.
-async function posted(place, body) {
+async function posted(place, body, fields = {}) {
   try {
-    const reply = await fetch(place, {method: "POST", headers: {"Content-Type": "application/json"}, body});
+    const reply = await fetch(place, {method: "POST", headers: {"Content-Type": "application/json", ...fields}, body});
     const json = await reply.json();
     if (!json.error) return json;
     say(json.error.message);

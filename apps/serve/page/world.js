@@ -203,13 +203,8 @@ function viewWords(around, zoom) {
 }
 async function showSeenPath() {
   if (pathLine.whole || !pathLine.id) return;
-  const mine = ++pathLine.asked, of = answer.json;
-  try {
-    const reply = await fetch("api/path/" + pathLine.id + viewWords(0.5, map.getZoom() - 1));  // the line is wider than two pixels
-    looked(reply, of);
-    const told = reply.ok ? await reply.json() : null;
-    if (told && mine === pathLine.asked) drawChains(told.chains);  // else another path or view came meanwhile
-  } catch (error) {
-    // what was seen stays; the next question says that the service is gone
-  }
+  const mine = ++pathLine.asked, zoom = map.getZoom() - 1;  // the line is wider than two pixels
+  const told = await toldOfPath("api/path/" + pathLine.id + viewWords(0.5, zoom), answer.json);
+  // Of what is refused, what was seen stays; else another path or view may have come meanwhile.
+  if (!told.error && mine === pathLine.asked) drawChains(told.chains);
 }

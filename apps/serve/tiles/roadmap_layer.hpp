@@ -114,8 +114,6 @@ class RoadmapLayer : public PlacedRoadmap {
   /// The same with which of at most 16 inks each milestone has; none: all have the first.
   std::string draw(const Box& box, double pixel, std::span<const Rgb> inks, std::span<const std::uint8_t> of_milestone,
                    const Execution& execution) const;
-  /// Which of component_inks the milestone has.
-  std::uint8_t rank(VertexId v) const { return ranks_[v]; }
   /// Milestones in each of component_inks.
   const std::array<std::uint64_t, component_inks.size()>& milestones_of_ink() const { return of_ink_; }
   /// Components that share the last ink.

@@ -84,12 +84,18 @@ TEST(TimedPath, AStraightWayIsATrapezoidOrATriangle) {
   EXPECT_NEAR(TimedPath(near_legs, {.speed = 2}, {}).duration_s(), 0.5, 1e-12) << "no ramps";
 }
 
+double begin_of(const TimedPath& timed, std::size_t leg) {
+  double time_s = 0.0;
+  timed.at_share(leg, 0.0, time_s);
+  return time_s;
+}
+
 TEST(TimedPath, StopsAtCornersAndGoesOnWhereTheWayDoes) {
   const Answer bent = of_points({{0, 0}, {3, 0}, {3, 0}, {10, 0}, {10, 10}});
   const PathLegs legs(bent);
   const TimedPath timed(legs, {.speed = 2, .acceleration = 1}, {});
   EXPECT_NEAR(timed.duration_s(), 7 + 7, 1e-12);
-  EXPECT_NEAR(timed.time_s(3), 7, 1e-12);
+  EXPECT_NEAR(begin_of(timed, 3), 7, 1e-12);
   EXPECT_NEAR(timed.at(7.0).speed, 0.0, 1e-9);
   EXPECT_NEAR(timed.at(3.0).speed, 2.0, 1e-12);
 }
@@ -105,9 +111,9 @@ TEST(TimedPath, ACarStopsWhereItChangesGearAndSlowsOnArcs) {
   EXPECT_EQ(legs.gear(2), -1);
   const TimedPath timed(legs, {.speed = 2, .acceleration = 1, .lateral_acceleration = 0.5}, {});
   const double on_arc = std::sqrt(0.5 * 1.5);
-  EXPECT_NEAR(timed.at(timed.time_s(1)).speed, on_arc, 1e-9);
-  EXPECT_NEAR(timed.at(timed.time_s(2)).speed, 0.0, 1e-9);
-  EXPECT_LT(timed.at(timed.time_s(2) + 1.0).speed, 0.0) << "backwards";
+  EXPECT_NEAR(timed.at(begin_of(timed, 1)).speed, on_arc, 1e-9);
+  EXPECT_NEAR(timed.at(begin_of(timed, 2)).speed, 0.0, 1e-9);
+  EXPECT_LT(timed.at(begin_of(timed, 2) + 1.0).speed, 0.0) << "backwards";
 }
 
 TEST(TimedPath, KeepsItsLimitsAtTenThousandInstants) {
