@@ -257,15 +257,16 @@ class ClassSearch {
       while (known != none && state_at(known).word != word) known = state_at(known).next;
       // A weight may be dear to find: not where the length alone is too much.
       if (known != none && state_at(known).cost <= from.cost + weights_.length(step)) continue;
-      const std::uint64_t onward = first != none ? state_at(first).onward : *field_.cost(to, execution_);
+      const auto onward = first != none ? std::optional(state_at(first).onward) : field_.cost(to, execution_);
+      if (!onward) continue;
       const std::uint64_t cost = from.cost + weights_.weight(from.cell, step);
-      if (static_cast<double>(cost + onward) > limit_) continue;
+      if (static_cast<double>(cost + *onward) > limit_) continue;
       if (known == none) {
-        reach({cost, onward, to, at, none, word, 0});
+        reach({cost, *onward, to, at, none, word, 0});
       } else if (cost < state_at(known).cost) {
         state_at(known).cost = cost;
         state_at(known).before = at;
-        open_.push(known, static_cast<double>(cost + onward));
+        open_.push(known, static_cast<double>(cost + *onward));
       }
     }
   }

@@ -369,6 +369,9 @@ TEST_F(SolveUrdf, ARobotStandsAnywhere) {
   const Json here = Json::parse(folder_.read("there.json"));
   EXPECT_EQ(here["path"], Json::parse(folder_.read("fixed.json"))["path"]);
   EXPECT_EQ(here["robot"].get<std::string>(), stands);
+  const std::string plain = folder_.write("here.scene", "robot " + robot_ + "\ncylinder 0.7 0 0 0.7 0 1 0.1" + ends);
+  const Json at_origin = Json::parse(run({"solve", plain, "--json", "-"}).out);
+  EXPECT_NEAR(here["min_clearance"].get<double>(), at_origin["min_clearance"].get<double>(), 1e-7) << "as sharp";
   for (const std::vector<std::string>& asked : {std::vector<std::string>{"verify", scene, answer},
                                                 {"render", scene, "--answer", answer, "-o", folder_.path("there.svg")},
                                                 {"solve", scene, "--goal-pose", "29,-20,0.9,0,0,1,0", "--quiet"}}) {

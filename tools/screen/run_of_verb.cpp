@@ -56,7 +56,8 @@ std::string bar(double fraction, std::size_t width) {
   return "[" + text + "]";
 }
 
-/// "cost 12.34, bound 11.93, gap 3.4 %, turn 120"; without bound and gap where nothing is proved.
+}  // namespace
+
 std::string improvement_text(const Improvement& best) {
   std::string text = fmt::format("cost {}", human_number(best.cost));
   if (best.lower_bound > 0.0) {
@@ -66,8 +67,6 @@ std::string improvement_text(const Improvement& best) {
   return text + fmt::format(", turn {}", best.iterations);
 }
 
-/// One line: "connect  [=====>    ]  43 %  12.3 M/s  3 s left of it", at most `width` columns: how long the stage will
-/// take; behind it what is known of the whole run.
 std::string progress_line(const RunMoment& moment, double items_per_s, std::string_view of_whole_run,
                           std::size_t width) {
   std::string line = fmt::format("{:<10}", moment.stage);
@@ -91,8 +90,6 @@ std::string progress_line(const RunMoment& moment, double items_per_s, std::stri
   if (line.size() >= width) line.resize(width - 1);
   return line;
 }
-
-}  // namespace
 
 class ProgressBar : NotCopied {
  public:

@@ -80,6 +80,14 @@ class WholeRun {
 /// narrower meanwhile.
 std::string erasing(std::size_t columns, std::size_t width);
 
+/// "cost 12.34, bound 11.93, gap 3.4 %, turn 120"; without bound and gap where nothing is proved.
+std::string improvement_text(const Improvement& best);
+
+/// One line: "connect  [=====>    ]  43 %  12.3 M/s  3 s left of it", at most `width` columns: how long the stage will
+/// take; behind it what is known of the whole run.
+std::string progress_line(const RunMoment& moment, double items_per_s, std::string_view of_whole_run,
+                          std::size_t width);
+
 class ProgressBar;
 
 /// One run of a verb: the clock starts with it. Not movable: Execution points into it.

@@ -48,7 +48,10 @@ std::vector<Se2> poses_along(const W& world, const Path<Se2>& path) {
 template <class W>
 void expect_verified(const Scene& scene, const W& world, const Path<Se2>& path) {
   ASSERT_GE(path.size(), 2U);
-  const VerifiedCar body{.turning_radius = car.turning_radius, .reverses = !W::one_way, .radius = car.radius};
+  const RobotSpec body{.kind = RobotKind::car,
+                       .radius = car.radius,
+                       .turning_radius = car.turning_radius,
+                       .steering = W::one_way ? SteeringKind::dubins : SteeringKind::reeds_shepp};
   const auto v = verify_car(scene, body, poses_along(world, path), {.start = start, .goal = goal}, {});
   EXPECT_TRUE(v.verified) << v.first_violation->obstacle;
   const auto length = [&](const Se2& a, const Se2& b) { return world.distance(a, b); };
