@@ -26,13 +26,15 @@ struct Judge {
 std::vector<Judge> plane_judges() {
   const std::vector<Vec2> outline = {{-0.1, -0.1}, {0.1, -0.1}, {0, 0.1}};
   const std::vector<Se2> pose = {{1.5, 1.5, 0.0}};
-  return {{"point",
-           [](const Scene& s) {
-             return verify_path(s, std::vector<Vec2>{{1.5, 1.5}}, {}, {});
-           }},
-          {"polygon", [=](const Scene& s) { return verify_se2(s, outline, pose, {}, {}); }},
-          {"car", [=](const Scene& s) { return verify_car(s, {.outline = outline}, pose, {}, {}); }},
-          {"disc car", [=](const Scene& s) { return verify_car(s, {.radius = 0.1}, pose, {}, {}); }}};
+  return {
+      {"point",
+       [](const Scene& s) {
+         return verify_path(s, std::vector<Vec2>{{1.5, 1.5}}, {}, {});
+       }},
+      {"polygon", [=](const Scene& s) { return verify_se2(s, outline, pose, {}, {}); }},
+      {"car", [=](const Scene& s) { return verify_car(s, {.turning_radius = 1.0, .outline = outline}, pose, {}, {}); }},
+      {"disc car",
+       [=](const Scene& s) { return verify_car(s, {.radius = 0.1, .turning_radius = 1.0}, pose, {}, {}); }}};
 }
 
 Verification judged_arm(const Scene& scene) {
