@@ -243,8 +243,7 @@ class MoveItReader {
     std::size_t i = 0;
     for_each(state, "transforms", [&](const Node& transform) {
       const PoseNumbers place = pose(transform, "translation", "rotation");
-      const Node name = i < names.size() ? names[i] : Node();
-      ++i;
+      const Node name = i < names.size() ? names[i++] : Node();
       if (place.is_identity() && !base_is_said()) return;
       const RobotFrames* const known = robot();
       if (known == nullptr || !name.IsScalar() || name.Scalar().empty() || name.Scalar() != known->base_joint) {
