@@ -362,6 +362,7 @@ class ArmDrawing {
     high_ = high_.cwiseMax(p + Vec3::Constant(radius));
   }
   void measure(const ArmPath& seen) {
+    low_ = high_ = seen.base();
     const auto take = [this](const Vec3& p, double radius) { include(p, radius); };
     for (const Shapes& shapes : obstacles_) {
       execution_.check();
@@ -486,8 +487,8 @@ class ArmDrawing {
   const Execution& execution_;
   std::vector<Shapes> obstacles_;
   double radius_ = 0.0;  ///< of lines that stand for the arm
-  Vec3 low_ = Vec3::Zero();
-  Vec3 high_ = Vec3::Zero();
+  Vec3 low_;
+  Vec3 high_;
   double room_ = 1.0;  // around each view
   std::array<Projection, 3> views_;
   Box perspective_;

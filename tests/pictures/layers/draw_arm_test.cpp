@@ -59,6 +59,22 @@ TEST(DrawArm, LinksOfAnySolidAreOutlinesInEachView) {
   ASSERT_EQ(views.stage.polygons.size(), 3U);
 }
 
+TEST(DrawArm, ARobotFarAwayIsSeenAsLarge) {
+  const std::vector<JointState> path{{0.0, 0.0}, {0.5, 1.0}};
+  const Vec3 there(1000.0, -500.0, 30.0);
+  ArmModel moved = forked_arm();
+  moved.base = there;
+  moved.joints[0].origin.pretranslate(there);
+  moved.links[2].solids[0].pose.pretranslate(there);
+  const ArmViews near = arm_views(Scene{}, forked_arm(), path, {});
+  const ArmViews far = arm_views(Scene{}, moved, path, {});
+  ASSERT_EQ(far.panels.size(), near.panels.size());
+  for (std::size_t i = 0; i < near.panels.size(); ++i) {
+    EXPECT_NEAR(far.panels[i].box.width(), near.panels[i].box.width(), 1e-9) << i;
+    EXPECT_NEAR(far.panels[i].box.height(), near.panels[i].box.height(), 1e-9) << i;
+  }
+}
+
 TEST(DrawArm, FacesLookOutwards) {
   const std::vector<JointState> stands{{0.0, 0.0}};
   const ArmViews views = arm_views({}, forked_arm(), stands, {});
