@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -11,8 +13,54 @@
 namespace warren {
 namespace {
 
-using detail::PlainWallSteps;
 using detail::WallSteps;
+
+/// One coordinate after the other.
+class PlainWallSteps {
+ public:
+  template <class T>
+  explicit PlainWallSteps(const WallOf<T>& w) {
+    constexpr T limit = detail::most_steps;
+    const std::array<T, 4> ends{w.x1, w.y1, w.x2, w.y2};
+    for (std::size_t i = 0; i < 4; ++i) {
+      const T scaled = ends[i] * narrow_unit;
+      const T below = scaled < limit ? scaled : limit;
+      steps_[i] = static_cast<std::int32_t>(below > -limit ? below : -limit);
+      exact_ = exact_ && static_cast<T>(steps_[i]) == scaled;
+    }
+  }
+  explicit PlainWallSteps(const PackedWall& w) {
+    const PackedWall::Ends e = w.ends();
+    constexpr std::int32_t steps = 1 << detail::packed_shift;
+    steps_ = {e.x1 * steps, e.y1 * steps, e.x2 * steps, e.y2 * steps};
+  }
+
+  bool exact() const { return exact_; }
+  float number(std::size_t i) const { return static_cast<float>(steps_[i]); }
+  bool is_short(std::int32_t longest) const {
+    return std::abs(steps_[0] - steps_[2]) <= longest && std::abs(steps_[1] - steps_[3]) <= longest;
+  }
+  detail::TileCorner first(std::int32_t less, int log2) const {
+    return {(std::min(steps_[0], steps_[2]) - less) >> log2, (std::min(steps_[1], steps_[3]) - less) >> log2};
+  }
+  detail::TileCorner last(std::int32_t more, int log2) const {
+    return {(std::max(steps_[0], steps_[2]) + more) >> log2, (std::max(steps_[1], steps_[3]) + more) >> log2};
+  }
+  NarrowWall from(std::uint64_t origin) const {
+    const auto x = static_cast<std::int32_t>(origin);
+    const auto y = static_cast<std::int32_t>(origin >> 32);
+    return {narrow(steps_[0] - x), narrow(steps_[1] - y), narrow(steps_[2] - x), narrow(steps_[3] - y)};
+  }
+
+ private:
+  static std::int16_t narrow(std::int32_t x) {
+    return static_cast<std::int16_t>(std::clamp<std::int32_t>(x, std::numeric_limits<std::int16_t>::min(),
+                                                              std::numeric_limits<std::int16_t>::max()));
+  }
+
+  std::array<std::int32_t, 4> steps_;  // x1 y1 x2 y2
+  bool exact_ = true;
+};
 
 bool same(const detail::TileCorner& a, const detail::TileCorner& b) { return a.col == b.col && a.row == b.row; }
 bool same(const NarrowWall& a, const NarrowWall& b) {
@@ -26,7 +74,7 @@ void expect_alike(const Wall& wall, bool is_whole) {
   EXPECT_EQ(steps.exact(), is_whole);
   EXPECT_EQ(plain.exact(), is_whole);
   if (!is_whole) return;
-  for (int i = 0; i < 4; ++i) EXPECT_EQ(steps.numbers()[i], plain.numbers()[i]) << i;
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(steps.numbers()[i], plain.number(static_cast<std::size_t>(i))) << i;
   for (const std::int32_t longest : {0, 127, 128, 8192, 1 << 30}) {
     EXPECT_EQ(steps.is_short(longest), plain.is_short(longest)) << longest;
   }
