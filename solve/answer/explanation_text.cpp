@@ -239,7 +239,7 @@ constexpr std::array links{
 constexpr std::size_t first_of_the_end = links.size() - 3;
 
 std::size_t place_of(std::string_view key) {
-  const auto at = std::ranges::find_if(links, [&](const Link& link) { return link.key == key; });
+  const auto at = std::ranges::find(links, key, &Link::key);
   return static_cast<std::size_t>(at - links.begin());
 }
 

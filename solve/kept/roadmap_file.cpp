@@ -106,8 +106,7 @@ class HeaderReader {
                    result_.blocks};
     if (!is_section_name(s.name)) fail("a section's name must be 1 to 16 of a-z, 0-9, dot and underscore", s.name);
     check_text(entry.name, "the name of section `" + s.name + "`");
-    const auto has_name = [&](const SectionPlace& other) { return other.name == s.name; };
-    if (std::ranges::any_of(result_.sections, has_name)) fail_in(s, "stands twice", {});
+    if (std::ranges::count(result_.sections, s.name, &SectionPlace::name) > 0) fail_in(s, "stands twice", {});
     if (!s.type.is_legal()) fail_in(s, "must have elements of a type like <u4 or <f8", text_of(entry.type.code));
     if (entry.flags > optional_flag) fail_in(s, "has flags that are not known", number(entry.flags));
     if (!all_zero(std::as_bytes(std::span(entry.reserved)))) fail_in(s, "must have zeros in its reserved bytes", {});
@@ -267,8 +266,7 @@ FirstLook RoadmapFile::first_look(const SectionPlace& place) const {
 }
 
 const SectionPlace* RoadmapFile::find(std::string_view name) const {
-  const auto found =
-      std::ranges::find_if(head_.sections, [name](const SectionPlace& place) { return place.name == name; });
+  const auto found = std::ranges::find(head_.sections, name, &SectionPlace::name);
   return found == head_.sections.end() ? nullptr : &*found;
 }
 

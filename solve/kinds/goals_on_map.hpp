@@ -106,7 +106,7 @@ class WaysOverCells {
   };
   /// The cheapest of the ways to an entry; none: the cells join them to none.
   std::optional<Way> cheapest(Vec2 from, std::span<const Entry> ends) {
-    const auto there = std::ranges::find_if(ends, [&](const Entry& end) { return end.place == from; });
+    const auto there = std::ranges::find(ends, from, &Entry::place);
     if (there != ends.end()) return Way{{}, 0, from, *there};
     const std::vector<Entry> begins = entries(from);
     std::vector<PriceField::Goal> goals;
@@ -145,7 +145,7 @@ class WaysOverCells {
         const auto cost = field.cost(begin.cell, execution_);
         if (cost && (!best || *cost + begin.cost < *best)) best = *cost + begin.cost;
       }
-      if (std::ranges::any_of(ends, [&](const Entry& end) { return end.place == place; })) best = 0;
+      if (std::ranges::count(ends, place, &Entry::place) > 0) best = 0;
     }
     expanded_ += field.expanded();
     return least;

@@ -19,8 +19,7 @@ const std::vector<SolveKind>& solve_kinds() {
 }
 
 const PlannerChoice* choice_in(const SolveKind& kind, PlannerKind planner) {
-  const auto found =
-      std::ranges::find_if(kind.planners, [&](const PlannerChoice& choice) { return choice.planner == planner; });
+  const auto found = std::ranges::find(kind.planners, planner, &PlannerChoice::planner);
   return found == kind.planners.end() ? nullptr : &*found;
 }
 
