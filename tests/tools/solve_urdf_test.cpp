@@ -330,6 +330,7 @@ world:
                                  "0.9,0.3,0.2,0.1", "--json", answer, "--quiet"},
         {"verify", scene, answer},
         {"render", scene, "--answer", answer, "-o", folder_.path("frames.svg")},
+        {"info", scene, "--robot", robot_},
         {"convert", scene, "--robot", robot_, "-o", plain},
         {"verify", plain, answer},
         {"build", scene, "--robot", robot_, "-o", roadmap, "--samples", "50", "--quiet"},

@@ -148,17 +148,20 @@ Scene load_world(const InputFile& file, const Arguments& arguments, const Execut
   return scene;
 }
 
+void check_robot_has_use(const InputFile* file, const Arguments& arguments, std::string_view other_use) {
+  if (!arguments.has("--robot") || arguments.has("--request")) return;
+  if (file != nullptr && format_of(*file) == WorldFormat::moveit) return;
+  arguments.refuse({"--robot"},
+                   fmt::format("is for {}a scene or request of MoveIt with poses in links' frames", other_use));
+}
+
 Scene load_world_alone(const std::string& source, const Arguments& arguments, const Execution& execution,
                        std::string_view other_use) {
   if (!arguments.has("--robot") || arguments.has("--request")) return load_world(source, arguments, execution);
-  const auto refuse = [&] {
-    arguments.refuse({"--robot"},
-                     fmt::format("is for {}a scene or request of MoveIt with poses in links' frames", other_use));
-  };
-  if (is_made_source(source)) refuse();
-  const InputFile file(source, execution);
-  if (format_of(file) != WorldFormat::moveit) refuse();
-  return load_world(file, arguments, execution);
+  std::optional<InputFile> file;
+  if (!is_made_source(source)) file.emplace(source, execution);
+  check_robot_has_use(file ? &*file : nullptr, arguments, other_use);
+  return load_world(*file, arguments, execution);
 }
 
 void check_world_file(const std::string& file) {

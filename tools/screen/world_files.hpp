@@ -44,7 +44,11 @@ Scene load_world(const InputFile& file, const Arguments& arguments, const Execut
 inline constexpr OptionSpec moveit_robot_option{
     "--robot", "\"BODY\"", "of a scene or request of MoveIt: the arm in whose links' frames poses may be"};
 
-/// For who takes that option: UsageError for it where it would be passed over. other_use: "--simplify, or for ".
+/// For who takes that option: UsageError for it where it would be passed over. file: nullptr of a world that is made;
+/// other_use: "--simplify, or for ".
+void check_robot_has_use(const InputFile* file, const Arguments& arguments, std::string_view other_use = {});
+
+/// The same, then the world.
 Scene load_world_alone(const std::string& source, const Arguments& arguments, const Execution& execution,
                        std::string_view other_use = {});
 

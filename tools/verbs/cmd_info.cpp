@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -95,6 +96,9 @@ int info(const Arguments& arguments) {
   auto roadmap = file ? opened_roadmap(*file, path, run.execution()) : nullptr;
   constexpr std::size_t head = 4096;
   const bool is_robot = file && roadmap == nullptr && file->bytes().substr(0, head).find("<robot") != std::string::npos;
+  const bool is_world = roadmap == nullptr && !is_robot;
+  if (is_world) check_robot_has_use(file ? &*file : nullptr, arguments);
+  if (!is_world) arguments.refuse({"--robot"}, "is for a scene or request of MoveIt");
   if (roadmap == nullptr) arguments.refuse({"--check"}, "is for roadmap files; others are checked as they are read");
   if (!is_robot) arguments.refuse({"--srdf", "--group", "--package-path"}, "is for a URDF");
   std::string text;
@@ -119,7 +123,8 @@ int info(const Arguments& arguments) {
 
 Command info_command() {
   return {"info", "FILE", "say what is in a world or a roadmap",
-          joined_options({info_specs, world_option_specs(), run_option_specs()}), info};
+          joined_options({info_specs, std::span(&moveit_robot_option, 1), world_option_specs(), run_option_specs()}),
+          info};
 }
 
 }  // namespace warren::tools
