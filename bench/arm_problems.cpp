@@ -64,7 +64,7 @@ struct Settings {
   RrtOptions options = options_of_sets();
   std::string sampler = "random";
   double domain = *options.domain;  // 0: none
-  double worth = 0.2;
+  double worth = 0.3;
   int repeats = 3;
   bool proved_alone = false;
   std::string json;

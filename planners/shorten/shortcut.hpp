@@ -11,14 +11,16 @@
 // improve_path() is for searches that go on and have a path to improve again and again: first it skips states that are
 // not needed, then its rounds cut, pull, and let states drift: each a share of the way towards a random state, where
 // the share falls by a fifth on failure and doubles on luck, for each state its own: so paths slide along obstacles and
-// bodies turn where no straight motion shows the way. A round ends by leaving out what the motion of its neighbours
-// passes. The metric says no first, the checks come last.
+// bodies turn where no straight motion shows the way. Rounds of arms begin with joints that go evenly, one by one (the
+// partial shortcuts of that paper). A round ends by leaving out what the motion of its neighbours passes. The metric
+// says no first, the checks come last.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <tuple>
 #include <vector>
 
 #include "core/base/rng.hpp"
@@ -75,8 +77,7 @@ class Shortener {
   /// Those of improve_path().
   Path<State> improved(const ImproveOptions& options) {
     constexpr std::uint32_t rounds = 400;
-    constexpr std::size_t cuts = 16;
-    constexpr std::uint64_t drifts = 4;
+    constexpr std::uint64_t drifts = has_joints ? 1 : 4;
     constexpr double ahead = 2.0;  // so many times what it took off is what a round promises
     double best = whole();
     unsure_ = noise * best;
@@ -85,9 +86,10 @@ class Shortener {
     for (std::uint32_t round = 0; round < rounds && idle < options.patience && path_.size() > 2; ++round) {
       execution_.check();
       unsure_ = noise * best;
-      cut_corners(round, cuts);
+      if constexpr (has_joints) straighten(round);
+      cut_corners(round, has_joints ? 2 * path_.size() : 16);
       move_states([&](std::size_t v, typename W::Query& query, Counters& counters) {
-        path_[v] = moved_to_chord(v, 0.0, 0.25, query, counters).state;
+        path_[v] = moved_to_chord(v, 0.0, 0.25, has_joints ? 0.05 : 1e-3, query, counters).state;
       });
       for (std::uint64_t pass = 0; pass < drifts; ++pass) drift(round * drifts + pass);
       thin();
@@ -105,6 +107,7 @@ class Shortener {
  private:
   static constexpr std::uint64_t candidates = 64;
   static constexpr double first_drift = 0.125;
+  static constexpr bool has_joints = requires { std::tuple_size<State>::value; };
   static constexpr double noise = 1e-6;  // share of the path's length by which rounding may feign a gain
 
   /// Replaces the path between two places by `states`.
@@ -161,8 +164,8 @@ class Shortener {
   }
 
   /// The state moved towards where the motion between its neighbours passes, as far as that is free: all the way, or by
-  /// a share that falls by the factor `less`.
-  Moved moved_to_chord(std::size_t vertex, double slip, double less, typename W::Query& query,
+  /// a share above `least` that falls by the factor `less`.
+  Moved moved_to_chord(std::size_t vertex, double slip, double less, double least, typename W::Query& query,
                        Counters& counters) const {
     const State& before = path_[vertex - 1];
     const State& after = path_[vertex + 1];
@@ -172,7 +175,7 @@ class Shortener {
     const double share = std::clamp(way_in / (way_in + way_out) + slip, 0.0, 1.0);
     const State target = world_.interpolate(before, after, share);
     const double old_length = length_(before, path_[vertex]) + length_(path_[vertex], after);
-    for (double t = 1.0; t > 1e-3; t *= less) {
+    for (double t = 1.0; t > least; t *= less) {
       const State moved = state_between(world_, path_[vertex], target, t);
       const double gain = old_length - length_(before, moved) - length_(moved, after);
       if (gain <= unsure_ || !is_free(before, moved, query, counters) || !is_free(moved, after, query, counters))
@@ -180,6 +183,34 @@ class Shortener {
       return {moved, gain};
     }
     return {path_[vertex]};
+  }
+
+  /// Joint by joint: between two states of the path, at first its ends, the joint goes evenly where that is free. So
+  /// what a tree's samples turned for nothing is taken back where no motion of all joints would be free.
+  void straighten(std::uint32_t round) {
+    constexpr std::uint64_t purpose = 0x6a6f696e7473U;
+    auto query = world_.make_query();
+    const auto joints = world_.unit_dimension();
+    for (std::size_t joint = 0; joint < joints && path_.size() > 2; ++joint) {
+      execution_.check();
+      const auto drawn = [&](unsigned axis, std::size_t count) {
+        return static_cast<std::size_t>(uniform(seed_ ^ purpose, round * joints + joint, axis) *
+                                        static_cast<double>(count));
+      };
+      const std::size_t from = round == 0 ? 0 : drawn(0, path_.size() - 2);
+      const std::size_t to = round == 0 ? path_.size() - 1 : from + 2 + drawn(1, path_.size() - from - 2);
+      Path<State> part(path_.begin() + from, path_.begin() + to + 1);
+      const std::vector<double> along = lengths_along(part, length_);
+      for (std::size_t v = 1; v + 1 < part.size() && along.back() > 0.0; ++v) {
+        part[v][joint] = world_.interpolate(part.front(), part.back(), along[v] / along.back())[joint];
+      }
+      bool is_better = along.back() - path_length(part, length_) > unsure_;
+      for (std::size_t v = 1; v < part.size() && is_better; ++v) {
+        is_better = is_free(part[v - 1], part[v], query, counters_);
+      }
+      if (is_better) std::copy(part.begin(), part.end(), path_.begin() + from);
+    }
+    counters_.refused += refused_motions(query);
   }
 
   void cut_corners(std::uint32_t round, std::size_t count) {
@@ -193,7 +224,7 @@ class Shortener {
   void pull(std::uint32_t round) {
     change(path_.size() - 2, [&](std::size_t i, typename W::Query& query, Counters& counters) {
       const double slip = 0.5 * (uniform(seed_, round * candidates + i, 2) - 0.5);
-      const Moved moved = moved_to_chord(i + 1, round % 4 == 1 ? slip : 0.0, 0.5, query, counters);
+      const Moved moved = moved_to_chord(i + 1, round % 4 == 1 ? slip : 0.0, 0.5, 1e-3, query, counters);
       Change change{{i, 0.0}, {i + 1, 1.0}, {}, moved.gain};
       if (moved.gain > 0.0) change.states = {path_[i], moved.state, path_[i + 2]};
       return change;
