@@ -20,6 +20,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <span>
 #include <tuple>
 #include <vector>
 
@@ -199,7 +200,8 @@ class Shortener {
       };
       const std::size_t from = round == 0 ? 0 : drawn(0, path_.size() - 2);
       const std::size_t to = round == 0 ? path_.size() - 1 : from + 2 + drawn(1, path_.size() - from - 2);
-      Path<State> part(path_.begin() + from, path_.begin() + to + 1);
+      const std::span<State> old = std::span(path_).subspan(from, to - from + 1);
+      Path<State> part(old.begin(), old.end());
       const std::vector<double> along = lengths_along(part, length_);
       for (std::size_t v = 1; v + 1 < part.size() && along.back() > 0.0; ++v) {
         part[v][joint] = world_.interpolate(part.front(), part.back(), along[v] / along.back())[joint];
@@ -208,7 +210,7 @@ class Shortener {
       for (std::size_t v = 1; v < part.size() && is_better; ++v) {
         is_better = is_free(part[v - 1], part[v], query, counters_);
       }
-      if (is_better) std::copy(part.begin(), part.end(), path_.begin() + from);
+      if (is_better) std::copy(part.begin(), part.end(), old.begin());
     }
     counters_.refused += refused_motions(query);
   }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+
 #include "planners/shorten/shortcut.hpp"
 #include "tests/planners/trees/sampled_problems.hpp"
 
@@ -74,6 +77,45 @@ TEST(ImprovePath, LeavesWhatCanNotBeShorter) {
   EXPECT_EQ(improved_path(problem.view, one, MazeWorld::distance, {}, {}, counters), one);
   const Deadline past(1e-9);
   EXPECT_THROW(improved_path(problem.view, in_pieces, MazeWorld::distance, {}, {.deadline = &past}, counters), Stopped);
+}
+
+/// Three joints of [0, 1]; a wall between 0.4 and 0.6 of the first, whose gate is above 0.8 of the second.
+struct Gate {
+  static constexpr std::size_t dimension = 3;
+  using State = std::array<double, 3>;
+  struct Query {};
+  static Query make_query() { return {}; }
+  static State at_unit(const std::array<double, 3>& u) { return u; }
+  static std::size_t unit_dimension() { return dimension; }
+  static bool is_free(const State& a, Query&) { return std::abs(a[0] - 0.5) > 0.1 || a[1] > 0.8; }
+  static bool is_free_motion(const State& a, const State& b, Query& query) {
+    for (int i = 0; i <= 100; ++i) {
+      if (!is_free(interpolate(a, b, 0.01 * i), query)) return false;
+    }
+    return true;
+  }
+  static double distance(const State& a, const State& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
+  static State interpolate(const State& a, const State& b, double t) {
+    State c = a;
+    for (std::size_t i = 0; i < dimension; ++i) c[i] += t * (b[i] - a[i]);
+    return c;
+  }
+  static State embed(const State& a) { return a; }
+};
+
+TEST(ImprovePath, JointsThatTurnForNothingGoEvenlyAfterARound) {
+  const Path<Gate::State> path = {{0, 0, 0}, {0.3, 0.85, 1}, {0.5, 0.95, 0}, {0.7, 0.85, 1}, {1, 0, 0.5}};
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    Counters counters;
+    const auto shorter = improve_path(Gate{}, path, Gate::distance, {.seed = seed, .worth = 0.99}, {}, counters);
+    const double whole = path_length(shorter, Gate::distance);
+    EXPECT_LT(whole, 2.3) << seed;
+    double along = 0.0;
+    for (std::size_t i = 1; i + 1 < shorter.size(); ++i) {
+      along += Gate::distance(shorter[i - 1], shorter[i]);
+      EXPECT_NEAR(shorter[i][2], 0.5 * along / whole, 0.1) << seed;
+    }
+  }
 }
 
 }  // namespace
