@@ -4,8 +4,9 @@
 // the queue is IndexedHeap<4> unless --queue says otherwise (planners/graph/queue_choice.hpp), the heuristic the
 // straight line or the world's metric (estimated_way() in planners/graph/roadmap_options.hpp); from 50,000 vertices on
 // both ends search (planners/graph/roadmap_search.cpp). Maps take a BucketQueue and heuristics of their own
-// (planners/grid). Loops of their own have cars on grids (ARA*, planners/grid/motion_lattice.hpp), fields of prices,
-// overlays of mazes, polyanya, paths of discs and redrive.
+// (planners/grid). Loops of their own have cars on grids (ARA*, planners/grid/motion_lattice.hpp), fields of prices
+// (price_field there), classes of paths (path_classes), overlays of mazes (planners/mazes/overlay_search), polyanya
+// (planners/vertical_cells), discs' paths (planners/visibility), redrive (planners/shorten) and the judge's bounds.
 //
 // A graph is any callable neighbours(v, visit) that calls visit(w, length) for each neighbour in ascending order; a
 // lazily checked roadmap tests an edge there, and asks visit.wants(w, length) first, whether an edge of at least this

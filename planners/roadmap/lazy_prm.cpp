@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The dead ends of a maze (DeadEnds, DeadEndSeals). The planner is a template in the header: LazyPlan.
 #include "planners/roadmap/lazy_prm.hpp"
 
 #include <cmath>

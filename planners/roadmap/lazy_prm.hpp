@@ -2,12 +2,13 @@
 // Lazy PRM (Bohlin, Kavraki, ICRA 2000): milestones as in prm, but a motion is checked only where a search needs it.
 //
 // In this order (LazyPlan::round): milestones are drawn and indexed, the edges of start and goal are checked, then it
-// searches, and checks an edge when expanding one end would improve the other. By radius the graph is implicit
-// (LazyGraph): the search asks for neighbours. By k, which is usual for all bodies but points, the candidates become
-// rows before it, unchecked. Blocked ends, and larger rounds where there is no path: plan_in_rounds.hpp; motions that
-// have a direction: one_way_prm.hpp. The path is the shortest of the same roadmap as prm's. Tried and lost: a motion
-// checked only when it lies on the best path so far, as Bohlin and Kavraki have it, for most candidate edges of mazes
-// lead through walls, and each of them cost a repair.
+// searches, and checks an edge when expanding one end would improve the other. The loop that expands is best_first()
+// (core/search/search.hpp), from both ends SearchSide::advance() (bidirectional_search.hpp there). By radius the graph
+// is implicit (LazyGraph): the search asks for neighbours. By k, which is usual for poses, arms and the corridor
+// sampler, the candidates become rows before it, unchecked. Blocked ends, and larger rounds where there is no path:
+// plan_in_rounds.hpp; motions that have a direction: one_way_prm.hpp. The path is the shortest of the same roadmap as
+// prm's. Tried and lost: a motion checked only when it lies on the best path so far, as Bohlin and Kavraki have it, for
+// most candidate edges of mazes lead through walls, and each of them cost a repair.
 // From 50,000 milestones on it searches from both ends (NBA*), if the estimate never exceeds the way: each end with a
 // graph and a thread of its own; below that, two threads do not repay their start. The number of threads changes
 // neither path nor counters. There it also leaves out the dead ends of a maze (DeadEnds).

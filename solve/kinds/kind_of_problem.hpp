@@ -11,12 +11,13 @@
 //    branch in what solves it. The line has the options that the planner takes beyond planner and seed (every other one
 //    is refused, by name, before the planner sees it), and the words of questions that it respects (asked_words.hpp:
 //    prices, restrictions, goals; the same);
-// 4. for bodies that sample, whose branch is shared: plan(), plan_roadmap() or grow_trees() of SampledSolve
-//    (sampled_solve.hpp), planned_worlds.hpp and planned_*.cpp, where it is compiled;
-// 5. the help (tools/words/planner_words.cpp), Python's (apps/python/warren/_worlds.pyi, _errors.py), the page's
-//    (apps/serve/page/better.js);
+// 4. for bodies that sample, whose branch is shared: plan(), plan_roadmap(), grow_trees(), plan_better() or
+//    plan_on_lattice() of SampledSolve (sampled_solve.hpp), planned_worlds.hpp and planned_*.cpp, where it is compiled;
+// 5. the help (tools/words/planner_words.cpp), Python's (apps/python/warren/_worlds.pyi, _errors.py), and of one that
+//    gets better the page's (apps/serve/page/better.js);
 // 6. tests/matrix/planners.table, of which README's table is made, and matrix_checks.cpp there;
-// 7. docs/file_formats.md, algorithms.md, other_names.md.
+// 7. docs/file_formats.md, algorithms.md, other_names.md;
+// 8. its test in tests/planners; for a new room a line in tests/check_layers.cmake and in the tree of docs/design.md.
 //
 // To add a kind: its file or a place in one, its declaration below, its line in the table. Several kinds may fit a
 // world (walls are plane obstacles too): the first in the table that has the planner, and takes all words and options,
