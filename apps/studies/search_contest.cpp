@@ -18,7 +18,6 @@
 #include "planners/graph/components.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 #include "spatial/points/point_grid.hpp"
-#include "spatial/points/tile_order.hpp"
 
 namespace warren::studies {
 namespace {

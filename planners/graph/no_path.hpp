@@ -17,7 +17,7 @@
 #include "core/search/graph.hpp"
 #include "parallel/asked_memory.hpp"
 #include "parallel/chunks.hpp"
-#include "planners/graph/state_index.hpp"
+#include "planners/graph/any_world.hpp"
 
 namespace warren {
 

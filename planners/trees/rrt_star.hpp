@@ -6,7 +6,7 @@
 // Parents are tried in the order of what the state would cost with them, so that most steps check one motion or two
 // instead of all. Costs are always right: where a state gets cheaper, its subtree does. Neighbours are found by the
 // world's embedding; the metric decides among them, in the direction of travel, so that one-way worlds are served.
-// A new state within a step of a goal tries it at once. Informed: samples from planners/trees/informed_sampler.hpp, and
+// A new state within a step of a goal tries it at once. Informed: samples from planners/roadmap/sampler.hpp, and
 // no state is added through which a path can't be cheaper than the best.
 // Cost a step: one neighbour query or two, O(log^2 n), two metrics a neighbour, and the motion checks, which dominate.
 // Memory: a MotionTree, and 12 bytes a state.
@@ -20,7 +20,6 @@
 #include <vector>
 
 #include "planners/roadmap/roadmap_growth.hpp"
-#include "planners/trees/informed_sampler.hpp"
 #include "planners/trees/motion_tree.hpp"
 
 namespace warren {

@@ -31,7 +31,6 @@
 #include "core/search/search.hpp"
 #include "planners/graph/roadmap_options.hpp"
 #include "planners/visibility/plane_pieces.hpp"
-#include "planners/visibility/rotational_sweep.hpp"
 #include "spatial/obstacles/polygon_index.hpp"
 
 namespace warren {
@@ -46,7 +45,7 @@ namespace warren {
 /// sectors are wider than half a turn, and the line through both leaves the obstacles at each on one side. Shortest
 /// paths bend nowhere else.
 ///
-/// Cost of one look: planners/visibility/plane_pieces and planners/visibility/rotational_sweep, O(k log k) for k pieces
+/// Cost of one look: planners/visibility/plane_pieces, O(k log k) for k pieces
 /// that may be seen. Immutable; any number of threads may read.
 class VisibleCorners {
  public:
