@@ -10,7 +10,6 @@
 #include "bench/report.hpp"
 #include "bench/test_graphs.hpp"
 #include "planners/graph/assemble_graph.hpp"
-#include "planners/graph/components.hpp"
 #include "planners/graph/reduce_graph.hpp"
 
 namespace warren::bench {

@@ -3,10 +3,10 @@
 // Voronoi diagram of walls, polygons' sides and the frame (the bounds' sides; without bounds, those of the obstacles'
 // box), pruned to what lies inside the frame and outside all polygons.
 //
-// The diagram is exact for ends snapped to a grid of 2^-29 of half the world (planners/visibility/noding.hpp);
-// clearances are computed anew at each curve's narrowest point, as distances to the obstacles that were given. Gaps
-// narrower than `resolution` (a few units of the grid) count as closed. Polygons must not overlap, which the sweep of
-// planners/vertical_cells/cell_decomposition.hpp finds.
+// The diagram is exact for ends snapped to a grid of 2^-29 of half the world (snap_segments()); clearances are computed
+// anew at each curve's narrowest point, as distances to the obstacles that were given. Gaps narrower than `resolution`
+// (a few units of the grid) count as closed. Polygons must not overlap, which decompose() finds; both stand in
+// planners/vertical_cells/cell_decomposition.hpp.
 // Time O(n log n), 20 microseconds a segment (bench/cells_bench.cpp).
 //
 // Below it, the Voronoi diagram of segments with integer ends, as plain arrays: Boost.Polygon's (Fortune's sweep,

@@ -16,7 +16,6 @@
 #include "core/search/union_find.hpp"
 #include "parallel/sort.hpp"
 #include "planners/graph/assemble_graph.hpp"
-#include "planners/graph/components.hpp"
 #include "planners/graph/no_path.hpp"
 #include "planners/graph/queue_choice.hpp"
 

@@ -33,7 +33,7 @@
 
 #include "core/search/graph.hpp"
 #include "parallel/chunks.hpp"
-#include "planners/graph/components.hpp"
+#include "planners/graph/assemble_graph.hpp"
 
 namespace warren {
 

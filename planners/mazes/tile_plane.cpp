@@ -8,7 +8,7 @@
 
 #include "core/base/instruction_set.hpp"
 #include "core/plane/geometry.hpp"
-#include "planners/mazes/wall_steps.hpp"
+#include "planners/mazes/tile_grid.hpp"
 #include "spatial/obstacles/wall_index.hpp"
 
 namespace warren {

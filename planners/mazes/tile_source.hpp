@@ -34,7 +34,6 @@
 #include "core/run/execution.hpp"
 #include "parallel/chunks.hpp"
 #include "planners/mazes/tile_grid.hpp"
-#include "planners/mazes/wall_steps.hpp"
 
 namespace warren {
 

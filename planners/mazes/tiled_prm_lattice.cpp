@@ -11,7 +11,7 @@
 #include "core/base/error.hpp"
 #include "core/base/raw_vector.hpp"
 #include "parallel/asked_memory.hpp"
-#include "planners/graph/components.hpp"
+#include "planners/graph/assemble_graph.hpp"
 #include "planners/graph/no_path.hpp"
 
 namespace warren {

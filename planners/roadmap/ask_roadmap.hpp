@@ -20,7 +20,7 @@
 #include "core/base/solution.hpp"
 #include "core/base/types.hpp"
 #include "planners/graph/any_world.hpp"
-#include "planners/graph/components.hpp"
+#include "planners/graph/assemble_graph.hpp"
 #include "planners/graph/hierarchy.hpp"
 #include "planners/graph/queue_choice.hpp"
 #include "planners/graph/roadmap_arrays.hpp"

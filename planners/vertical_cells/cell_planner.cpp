@@ -15,7 +15,6 @@
 #include "parallel/asked_memory.hpp"
 #include "parallel/chunks.hpp"
 #include "planners/graph/assemble_graph.hpp"
-#include "planners/graph/components.hpp"
 #include "planners/graph/no_path.hpp"
 #include "planners/graph/queue_choice.hpp"
 

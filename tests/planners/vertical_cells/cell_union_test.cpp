@@ -7,8 +7,8 @@
 #include <numbers>
 #include <vector>
 
+#include "planners/vertical_cells/cell_decomposition.hpp"
 #include "planners/vertical_cells/cell_planner.hpp"
-#include "planners/visibility/noding.hpp"
 #include "planners/visibility/visibility_path.hpp"
 #include "tests/planners/visibility/plane_worlds.hpp"
 
