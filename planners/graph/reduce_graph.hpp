@@ -17,7 +17,7 @@
 // second can peel more. On the way the components are counted, by the keys that the first step leaves, the trees that
 // it peels wholly and the cycles that have no key, so that the whole graph is not asked.
 //
-// For graphs that are there: a maze's tiles are reduced before there is one (planners/mazes/tile_reduction.hpp).
+// For graphs that are there: a maze's tiles are reduced before there is one (planners/mazes/tile_plane.hpp).
 // O(V + E). Memory: 1.2 bytes a vertex, and 20 bytes an edge end of the reduced graph. Measured in
 // bench/search_bench.cpp.
 #pragma once

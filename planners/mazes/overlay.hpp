@@ -23,7 +23,7 @@
 #include "core/run/execution.hpp"
 #include "parallel/chunks.hpp"
 #include "planners/mazes/tile_grid.hpp"
-#include "planners/mazes/tile_reduction.hpp"
+#include "planners/mazes/tile_plane.hpp"
 #include "planners/mazes/tile_source.hpp"
 
 namespace warren {

@@ -4,7 +4,7 @@
 //
 //   partition   walls are filed by tile, in streaming passes, band by band                 (tile_source)
 //   tiles       one thread a tile, all in its cache: milestones and edges stand until a    (tile_plane)
-//               wall clears them; dead ends are peeled, chains contracted                   (tile_reduction)
+//               wall clears them; dead ends are peeled, chains contracted
 //   overlay     what is left of all tiles, peeled again across borders                      (overlay)
 //   search      from both ends on the overlay's core; the path's chains are expanded again  (overlay_search)
 //
@@ -36,7 +36,6 @@
 #include "planners/mazes/overlay.hpp"
 #include "planners/mazes/overlay_search.hpp"
 #include "planners/mazes/tile_plane.hpp"
-#include "planners/mazes/tile_reduction.hpp"
 #include "planners/mazes/tile_source.hpp"
 
 namespace warren {

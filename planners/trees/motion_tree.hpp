@@ -19,8 +19,8 @@
 #include "planners/graph/assemble_graph.hpp"
 #include "planners/graph/no_path.hpp"
 #include "planners/graph/roadmap_arrays.hpp"
+#include "planners/graph/roadmap_options.hpp"
 #include "planners/roadmap/sampler.hpp"
-#include "planners/trees/rrt_options.hpp"
 #include "spatial/points/kd_tree.hpp"
 
 namespace warren {
