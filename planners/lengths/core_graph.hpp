@@ -5,8 +5,8 @@
 // junction j is half-edge 4 j + d, and `twin` is the half-edge at the other end of its chain: chains and the order of
 // slots around a junction are all that cutting the plane needs. A chain back to its own junction, and the longer one of
 // two between the same junctions, is on no shortest path between junctions and is left out.
-// What planners/graph/reduce_graph.hpp makes of a graph lacks the two things that lengths need: which way each cell of
-// a tree was taken off, and the order of slots. Cost: each chain is walked from both ends, O(core cells); 32 bytes a
+// What planners/graph/roadmap_search.hpp makes of a graph lacks the two things that lengths need: which way each cell
+// of a tree was taken off, and the order of slots. Cost: each chain is walked from both ends, O(core cells); 32 bytes a
 // junction.
 #pragma once
 

@@ -167,8 +167,8 @@ class WallMarker {
 //
 // Peeling follows each dead end inwards as far as it goes, so one pass over the plane is enough: O(points). What is
 // left in a maze is a few per cent of the vertices, in open space nearly all. Lengths are counted in steps between
-// lattice points. planners/graph/reduce_graph.hpp does the same to a graph, which would have to be made first: 20 bytes
-// a point, where the plane has one.
+// lattice points. planners/graph/roadmap_search.hpp does the same to a graph, which would have to be made first: 20
+// bytes a point, where the plane has one.
 
 /// A way between two keys of a tile, over vertices without choice.
 struct Chain {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The shortest path of a disc among polygons and walls, exactly: tangents between circles around the obstacles' corners
-// and arcs on them (planners/visibility/disc_ground), found by A* over tangents.
+// and arcs on them (planners/visibility/visibility_graph), found by A* over tangents.
 //
 // From a circle, and a side of it, a way leads on along the circle and then a tangent. A way is in the queue by its
 // length and the straight line from its end; when it comes first, and not before, its tangent is compared with the
@@ -29,7 +29,7 @@
 #include "core/base/solution.hpp"
 #include "core/base/types.hpp"
 #include "core/run/execution.hpp"
-#include "planners/visibility/disc_ground.hpp"
+#include "planners/visibility/visibility_graph.hpp"
 
 namespace warren {
 
