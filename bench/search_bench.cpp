@@ -14,7 +14,6 @@
 #include "bench/report.hpp"
 #include "bench/test_graphs.hpp"
 #include "core/search/search.hpp"
-#include "planners/graph/queue_choice.hpp"
 #include "planners/graph/roadmap_search.hpp"
 
 namespace warren::bench {

@@ -7,7 +7,6 @@
 #include "core/base/error.hpp"
 #include "parallel/asked_memory.hpp"
 #include "parallel/sort.hpp"
-#include "planners/graph/queue_choice.hpp"
 
 namespace warren {
 namespace {

@@ -50,14 +50,10 @@ struct SkeletonOptions {
   QueueKind queue = QueueKind::heap;
 };
 
-struct SkeletonPath {
-  Outcome outcome = Outcome::not_connected;  ///< or solved, start_blocked, goal_blocked
-  std::vector<Cell> cells;                   ///< start to goal, each a step from the one before
-  double clearance = 0.0;                    ///< least distance of their middles from what is blocked, in cells
-  RoadmapSize roadmap;                       ///< the skeleton: cells, steps, components
-  Separation separation;                     ///< only for not_connected; the gap in cells
-  std::uint64_t expanded = 0;
-  StageTimes seconds;
+/// Solved, start_blocked, goal_blocked or not_connected. Path: cells, each a step from the one before; roadmap: the
+/// skeleton's cells, steps, components; separation: in cells.
+struct SkeletonPath : Solution<Cell> {
+  double clearance = 0.0;  ///< least distance of the path's middles from what is blocked, in cells
 };
 
 /// What of a plan depends on neither start nor goal: the skeleton itself does. Any number of threads may plan on it.

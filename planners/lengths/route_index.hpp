@@ -47,7 +47,6 @@
 #include "core/base/raw_vector.hpp"
 #include "core/run/execution.hpp"
 #include "parallel/once.hpp"
-#include "planners/lengths/cell_marks.hpp"
 #include "planners/lengths/lattice_passages.hpp"
 #include "planners/lengths/separator_fronts.hpp"
 
@@ -117,7 +116,7 @@ bool route_index_pays(std::uint64_t junctions, std::uint64_t cells);
 
 /// What an index is made of, but for the passages.
 struct RouteArrays {
-  ArrayOrView<std::uint64_t> marks;  ///< of all cells, see cell_marks.hpp
+  ArrayOrView<std::uint64_t> marks;  ///< of all cells, see core_graph.hpp
   PieceArrays pieces;
   ArrayOrView<std::uint64_t> gates;         ///< a bit a place; empty if there is no gate
   ArrayOrView<std::uint32_t> gates_before;  ///< before each row of 64 places; empty if there is no gate

@@ -22,7 +22,6 @@
 #include "planners/graph/any_world.hpp"
 #include "planners/graph/assemble_graph.hpp"
 #include "planners/graph/hierarchy.hpp"
-#include "planners/graph/queue_choice.hpp"
 #include "planners/graph/roadmap_arrays.hpp"
 #include "planners/graph/roadmap_search.hpp"
 #include "planners/roadmap/build_roadmap.hpp"

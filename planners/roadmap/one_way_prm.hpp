@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "planners/graph/any_world.hpp"
-#include "planners/graph/queue_choice.hpp"
 #include "planners/graph/roadmap_search.hpp"
 #include "planners/roadmap/build_roadmap.hpp"
 #include "planners/roadmap/plan_in_rounds.hpp"

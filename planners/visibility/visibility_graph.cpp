@@ -14,7 +14,7 @@
 #include "core/plane/geometry.hpp"
 #include "parallel/asked_memory.hpp"
 #include "parallel/chunks.hpp"
-#include "planners/graph/queue_choice.hpp"
+#include "planners/graph/roadmap_search.hpp"
 
 namespace warren {
 namespace {

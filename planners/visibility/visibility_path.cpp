@@ -9,7 +9,6 @@
 #include "parallel/sort.hpp"
 #include "planners/graph/assemble_graph.hpp"
 #include "planners/graph/no_path.hpp"
-#include "planners/graph/queue_choice.hpp"
 #include "planners/graph/roadmap_search.hpp"
 
 namespace warren {

@@ -21,7 +21,7 @@
 #include "core/search/search.hpp"
 #include "planners/axis/medial_axis_planner.hpp"
 #include "planners/graph/assemble_graph.hpp"
-#include "planners/graph/queue_choice.hpp"
+#include "planners/graph/roadmap_search.hpp"
 #include "planners/shorten/taut_path.hpp"
 #include "planners/vertical_cells/cell_planner.hpp"
 #include "planners/visibility/disc_path.hpp"

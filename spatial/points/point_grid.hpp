@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Neighbours in the plane by a uniform grid: the index of choice for points that are not badly clustered (six to ten
 // times nanoflann, see bench/neighbours_bench.cpp). Points are kept in cell order; a query reads, for each row of cells
-// near it, one run of consecutive points. Points that come in tile order (below) are already
-// sorted, are read where they are, and are visited in ascending id. Memory 2 bytes a point in tile order, 26 otherwise.
-// A query costs O(points in the square of cells around its disc); points that crowd in few cells make that O(n): use
-// KdTree there (neighbours.hpp chooses).
+// near it, one run of consecutive points. Points that come in tile order (below) are already sorted, are read where
+// they are, and are visited in ascending id. Memory 2 bytes a point in tile order, 26 otherwise. A query costs O(points
+// in the square of cells around its disc); points that crowd in few cells make that O(n): use KdTree there
+// (neighbours.hpp chooses).
 #pragma once
 
 #include <array>
