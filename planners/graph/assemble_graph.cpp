@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "core/search/union_find.hpp"
 #include "parallel/asked_memory.hpp"
 
 namespace warren {
@@ -270,45 +269,16 @@ Graph assemble_graph(std::size_t vertex_count, std::span<const Edge> edges, cons
   return Assembly(vertex_count, parts, execution).run();
 }
 
-namespace {
-
-constexpr std::size_t component_grain = std::size_t{1} << 14;
-
-void join_inside(const Graph& graph, Range block, RawVector<VertexId>& parent) {
-  for (auto v = static_cast<VertexId>(block.first); v < block.last; ++v) {
-    parent[v] = v;
+Components components(const Graph& graph, const Execution& execution) {
+  Components result{joined_labels(graph.vertex_count(), execution, [&](VertexId v, const auto& join) {
     for (const VertexId w : graph.neighbours(v)) {
       if (w > v) break;  // each edge once, from its larger end
-      if (w < block.first) continue;
-      unite(parent, v, w);
+      join(w);
     }
-  }
-}
-
-}  // namespace
-
-Components components(const Graph& graph, const Execution& execution) {
-  const std::size_t n = graph.vertex_count();
-  Components result;
-  execution.reserve(n * sizeof(VertexId));
-  result.label.resize(n);
-  const UnionForest forest(result.label);
-  for_chunks(n, component_grain, execution, [&](Range r) { join_inside(graph, r, result.label); });
-  for_chunks(n, component_grain, execution.quiet(), [&](Range r) {
-    for (auto v = static_cast<VertexId>(r.first); v < r.last; ++v) {
-      for (const VertexId w : graph.neighbours(v)) {
-        if (w >= r.first) break;
-        forest.join(v, w);
-      }
-    }
-  });
-  result.count = sum_of_chunks(n, component_grain, execution.quiet(), [&](Range r) {
+  })};
+  result.count = sum_of_chunks(result.label.size(), std::size_t{1} << 14, execution.quiet(), [&](Range r) {
     std::size_t count = 0;
-    for (auto v = static_cast<VertexId>(r.first); v < r.last; ++v) {
-      const VertexId root = forest.root_of(v);
-      std::atomic_ref(result.label[v]).store(root, std::memory_order_relaxed);
-      count += root == v ? 1U : 0U;
-    }
+    for (std::size_t v = r.first; v < r.last; ++v) count += result.label[v] == v ? 1 : 0;
     return count;
   });
   return result;

@@ -45,15 +45,8 @@ Graph with_lengths(Graph graph, const Execution& execution, const Length& length
   return std::move(graph).with_lengths(std::move(lengths));
 }
 
-// Connected components on all cores. Blocks of vertices are joined serially inside (union-find with path halving, the
-// smaller root wins), then the edges between blocks by a lock-free union that hangs the larger root under the smaller
-// one with compare-and-swap, then every vertex is pointed at its root. A root is the smallest vertex of its tree at all
-// times, so the labels are the smallest vertices of the components whatever the order of the unions.
-//
-// O(E α(V)), reads each row once and the rows that leave their block twice; memory: the labels.
-// bench/plain_graph.hpp has the serial oracle.
-
-/// label[v] is the smallest vertex of v's component: the same as by bench/plain_graph.hpp.
+/// Connected components on all cores: label[v] is the smallest vertex of v's component, the same as by
+/// bench/plain_graph.hpp. O(E α(V)); memory: the labels.
 Components components(const Graph& graph, const Execution& execution);
 
 /// Union-find that many threads work on at once without a lock: the larger root is hung under the smaller one with

@@ -104,8 +104,7 @@ struct GrowingAttach {
 inline constexpr std::uint64_t most_samples = std::uint64_t{1} << 31;  ///< of a roadmap, and nodes of a tree
 inline constexpr std::uint32_t most_neighbours = 4096;                 ///< of a milestone
 
-/// How a roadmap is made and searched.
-/// validate() refuses values outside the stated ranges with InputError.
+/// How a roadmap is made and searched. validate() refuses values outside the stated ranges with InputError.
 struct RoadmapOptions {
   SamplerKind sampler = SamplerKind::uniform;    ///< where states are drawn
   LatticeSize lattice = {};                      ///< only for SamplerKind::lattice; both >= 1

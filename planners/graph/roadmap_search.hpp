@@ -33,8 +33,7 @@ namespace warren {
 
 // The exact reduction that shortest paths allow: dead ends are peeled (vertices of degree 1, again and again) and
 // chains of degree-2 vertices become one edge, so that a search runs on the junctions alone. On a perfect maze only the
-// path is left; where every doorway is crossed by several edges (uniform sampling) nothing is, and the reduction only
-// costs.
+// path is left.
 //
 // Peeling: each block of vertices first peels what has all its neighbours in the block, in cache and without atomics;
 // then all threads together follow the dead ends that are left across the blocks. What is left is the same in any
@@ -49,9 +48,8 @@ namespace warren {
 // second can peel more. On the way the components are counted, by the keys that the first step leaves, the trees that
 // it peels wholly and the cycles that have no key, so that the whole graph is not asked.
 //
-// For graphs that are there: a maze's tiles are reduced before there is one (planners/mazes/tile_plane.hpp).
-// O(V + E). Memory: 1.2 bytes a vertex, and 20 bytes an edge end of the reduced graph. Measured in
-// bench/search_bench.cpp.
+// For graphs that are there: a maze's tiles are reduced before there is one (planners/mazes/tile_plane.hpp). O(V + E).
+// Memory: 1.2 bytes a vertex, and 20 bytes an edge end of the reduced graph. Measured in bench/search_bench.cpp.
 
 /// Dead ends are followed through the whole graph, or as far as their block of vertices.
 enum class Peeling : std::uint8_t { everywhere, within_blocks };

@@ -33,13 +33,11 @@ enum class SkeletonEnds : std::uint8_t { go, stay };
 /// topology goes first: the free cells stay as connected as they were over common sides, and no loop around blocked
 /// cells closes or opens (a simple point of the 4-connected plane: Kong, Rosenfeld, Computer Vision 48, 1989; the
 /// order: Pudney, Computer Vision and Image Understanding 72, 1998). Cells that shall be kept stay, so the skeleton
-/// joins them wherever the map does. What remains: the kept cells, a loop around each island of blocked cells, and
-/// what joins these; dead ends are gone. O(cells log distances) time, serial; 9 bits a cell and 4 bytes a cell that
-/// waits.
+/// joins them wherever the map does. What remains: the kept cells, a loop around each island of blocked cells, and what
+/// joins these; dead ends are gone. O(cells log distances) time, serial; 9 bits a cell and 4 bytes a cell that waits.
 ///
 /// blocked: set bits; the outside is blocked too. field: of what keeps its distance, the same size; its order counts,
-/// and where ends stay its slope. kept: free cells that stay. Set bits of the result are the skeleton. Throws
-/// Stopped.
+/// and where ends stay its slope. kept: free cells that stay. Set bits of the result are the skeleton. Throws Stopped.
 Bitmap map_skeleton(const Bitmap& blocked, const DistanceField& field, std::span<const Cell> kept,
                     const Execution& execution, SkeletonEnds ends = SkeletonEnds::go);
 

@@ -225,9 +225,8 @@ CoreGraph core_graph(const RawVector<std::uint8_t>& peeled, const LatticePlaces&
 /// that again may make chains parallel. Lengths between junctions that stay are the same. Cells of what left are not
 /// lost: a search from them walks the lattice's own cells to the junctions that stay. The cells of the chains that stay
 /// are told where these go on, so that whoever follows one meets a choice at junctions that stay and nowhere else.
-/// Junctions on the grid of posts stay, so that these searches remain short. In mazes with 1 % loops
-/// more than half of the junctions leave, with 10 % a fifth; cuts get shorter by as much.
-/// Cost: serial, some tens of ns a junction.
+/// Junctions on the grid of posts stay, so that these searches remain short. In mazes with 1 % loops more than half of
+/// the junctions leave, with 10 % a fifth; cuts get shorter by as much. Cost: serial, some tens of ns a junction.
 ///
 /// peeled: as core_graph() took it. Junctions that become part of a chain have its two core edges left there, and each
 /// cell on a chain that stays gets its peel_bit::direction bits: does the chain go on to the right, and upwards; a

@@ -152,9 +152,8 @@ class OneWayPlan final : public Rounds<W> {
 
 }  // namespace detail
 
-/// Plans from start to goal as prm does, or (lazy) as lazy_prm. `keep`, where
-/// given, receives the roadmap of the last round; its graph is directed: w is among the neighbours of v where the
-/// motion from v to w is free.
+/// Plans from start to goal as prm does, or (lazy) as lazy_prm. `keep`, where given, receives the roadmap of the last
+/// round; its graph is directed: w is among the neighbours of v where the motion from v to w is free.
 template <class State, bool one_way>
 Solution<State> one_way_prm(const AnyWorld<State, one_way>& world, const State& start, const State& goal,
                             const RoadmapOptions& options, bool lazy, const Execution& execution,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The shortest path with the clearance in the homotopy class of a given one: the string of
-// planners/shorten/taut_path, its arcs replaced by tangents from outside, checked leg by leg.
+// The shortest path with the clearance in the homotopy class of a given one: a taut string, its arcs replaced by
+// tangents from outside, checked leg by leg.
 //
 // Tolerance: tangents stand 0.16 radians apart, so an arc becomes at most 0.22 % longer (closer tangents only where a
 // wall on the other side needs the room). Clearance 0, where touching is blocked and no shortest path exists, is

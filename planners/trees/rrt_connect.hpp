@@ -9,9 +9,8 @@
 // Probabilistically complete; that there is no path is never proved.
 //
 // The way over the free places of a coarse grid: breadth first, all places of a row at once, eight neighbours each;
-// then straight on as far as the places allow. First over places whose neighbours are free as well, then over all.
-// Some dozens of instructions a row and step, so about 2 us: a hint to try before a search, whose motions must be
-// checked.
+// then straight on as far as the places allow. First over places whose neighbours are free as well, then over all. Some
+// dozens of instructions a row and step, so about 2 us: a hint to try before a search, whose motions must be checked.
 #pragma once
 
 #include <algorithm>

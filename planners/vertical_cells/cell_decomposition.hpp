@@ -6,9 +6,8 @@
 // by an infinitesimal amount: x + eps y, so that no two corners are above each other and nothing is vertical). It keeps
 // the segments that it meets in order, and each free gap between two of them is an open cell (de Berg et al.,
 // Computational Geometry, ch. 6). Every decision is the sign of an exact orientation of input points, which the shear
-// does not change; no point is constructed.
-// Time O(n log n) for n corners, one thread; a corner with one segment on each side costs O(1), so sorting dominates.
-// Memory: 150 bytes a corner.
+// does not change; no point is constructed. Time O(n log n) for n corners, one thread; a corner with one segment on
+// each side costs O(1), so sorting dominates. Memory: 150 bytes a corner.
 //
 // Obstacles may touch: share corners and parts of sides, end on each other; walls may lie inside polygons. What crosses
 // or overlaps is refused (ObstacleClash). A corner on the box's side is taken as if the box were larger by nothing: the

@@ -12,10 +12,9 @@
 //                       it: circle and obstacle, both grown by the radius, cross twice at most
 //
 // Two searches are a bracket: one takes for free what keeps the radius less a trifle, so that nothing that is free is
-// missed: its length is a lower bound, and where it finds nothing there is no path. The other draws circles larger
-// by a trifle, so that rounding brings no path nearer than the radius. Mostly the first one's way stands the second's
-// test, and is not searched again. The trifle: 1e-12 of the radius, and some units in the last place of the world's
-// size.
+// missed: its length is a lower bound, and where it finds nothing there is no path. The other draws circles larger by a
+// trifle, so that rounding brings no path nearer than the radius. Mostly the first one's way stands the second's test,
+// and is not searched again. The trifle: 1e-12 of the radius, and some units in the last place of the world's size.
 //
 // Time as a lazy visibility search, O(k log k) a circle that is reached, k pieces in sight of its corner, and some 0.2
 // us a tangent tried; memory 300 bytes a corner and 100 a tangent.

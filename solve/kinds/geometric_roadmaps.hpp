@@ -15,7 +15,6 @@
 #include "planners/grid/skeleton_planner.hpp"
 #include "planners/vertical_cells/cell_planner.hpp"
 #include "planners/visibility/visibility_graph.hpp"
-#include "planners/visibility/visibility_path.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 #include "solve/kinds/sampled_roadmap.hpp"
 

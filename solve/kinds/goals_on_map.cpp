@@ -8,7 +8,6 @@
 
 #include "core/base/error.hpp"
 #include "core/base/whole.hpp"
-#include "planners/grid/path_classes.hpp"
 #include "planners/grid/price_field.hpp"
 #include "planners/shorten/taut_path.hpp"
 #include "solve/kinds/solve_steps.hpp"

@@ -26,7 +26,6 @@
 #include "planners/vertical_cells/cell_planner.hpp"
 #include "planners/visibility/disc_path.hpp"
 #include "planners/visibility/visibility_graph.hpp"
-#include "planners/visibility/visibility_path.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "solve/kinds/geometric_roadmaps.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
