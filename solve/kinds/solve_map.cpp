@@ -23,7 +23,7 @@
 #include "solve/kinds/solve_steps.hpp"
 #include "solve/kinds/solve_to_goal.hpp"
 #include "solve/question/planner_choice.hpp"
-#include "spatial/maps/distance_field.hpp"
+#include "spatial/maps/free_cells.hpp"
 #include "verify/judges/verify_point.hpp"
 #include "worlds/plane/grid_world.hpp"
 #include "worlds/prices/map_prices.hpp"
