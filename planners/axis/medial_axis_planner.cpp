@@ -15,8 +15,8 @@
 #include "core/search/search.hpp"
 #include "core/search/union_find.hpp"
 #include "parallel/sort.hpp"
+#include "planners/graph/any_world.hpp"
 #include "planners/graph/assemble_graph.hpp"
-#include "planners/graph/no_path.hpp"
 #include "planners/graph/roadmap_search.hpp"
 
 namespace warren {

@@ -25,7 +25,6 @@
 #include "planners/graph/roadmap_search.hpp"
 #include "planners/roadmap/connection.hpp"
 #include "planners/roadmap/milestones.hpp"
-#include "planners/roadmap/roadmap_growth.hpp"
 
 namespace warren {
 

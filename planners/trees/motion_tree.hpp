@@ -17,7 +17,6 @@
 #include "parallel/chunks.hpp"
 #include "planners/graph/any_world.hpp"
 #include "planners/graph/assemble_graph.hpp"
-#include "planners/graph/no_path.hpp"
 #include "planners/graph/roadmap_arrays.hpp"
 #include "planners/graph/roadmap_options.hpp"
 #include "planners/roadmap/sampler.hpp"

@@ -26,7 +26,6 @@
 
 #include "core/base/world.hpp"
 #include "planners/graph/any_world.hpp"
-#include "planners/graph/no_path.hpp"
 #include "planners/trees/motion_tree.hpp"
 
 namespace warren {

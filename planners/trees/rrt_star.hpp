@@ -18,7 +18,7 @@
 #include <span>
 #include <vector>
 
-#include "planners/roadmap/roadmap_growth.hpp"
+#include "planners/roadmap/connection.hpp"
 #include "planners/trees/motion_tree.hpp"
 
 namespace warren {

@@ -14,8 +14,8 @@
 #include "core/search/search.hpp"
 #include "parallel/asked_memory.hpp"
 #include "parallel/chunks.hpp"
+#include "planners/graph/any_world.hpp"
 #include "planners/graph/assemble_graph.hpp"
-#include "planners/graph/no_path.hpp"
 #include "planners/graph/roadmap_search.hpp"
 
 namespace warren {

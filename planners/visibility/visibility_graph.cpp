@@ -15,8 +15,8 @@
 #include "parallel/asked_memory.hpp"
 #include "parallel/chunks.hpp"
 #include "parallel/sort.hpp"
+#include "planners/graph/any_world.hpp"
 #include "planners/graph/assemble_graph.hpp"
-#include "planners/graph/no_path.hpp"
 #include "planners/graph/roadmap_search.hpp"
 
 namespace warren {
