@@ -10,8 +10,7 @@
 #include "bench/report.hpp"
 #include "bench/test_graphs.hpp"
 #include "planners/graph/assemble_graph.hpp"
-#include "planners/graph/components.hpp"
-#include "planners/graph/reduce_graph.hpp"
+#include "planners/graph/roadmap_search.hpp"
 
 namespace warren::bench {
 namespace {

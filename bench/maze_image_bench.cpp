@@ -107,7 +107,7 @@ void bm_maze_skeleton(benchmark::State& state) {
   const Ends ends = ends_of(map);
   const auto find = [&] { return plan_on_skeleton(map.blocked, ends.start, ends.goal, {}, {}); };
   if (should_check(state)) {
-    check(find().cells.size() == plain_bfs(map.blocked, ends.start, ends.goal) + 1,
+    check(find().path.size() == plain_bfs(map.blocked, ends.start, ends.goal) + 1,
           "the only way of a maze by its skeleton");
   }
   for (auto _ : state) benchmark::DoNotOptimize(find().clearance);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The serial ways from edges to a graph and to its components: what planners/graph/assemble_graph and
-// planners/graph/components are measured against, and the oracles of their tests.
+// planners/graph/assemble_graph are measured against, and the oracles of their tests.
 #pragma once
 
 #include <algorithm>

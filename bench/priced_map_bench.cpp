@@ -11,7 +11,7 @@
 #include "core/base/rng.hpp"
 #include "planners/grid/grid_search.hpp"
 #include "planners/grid/price_field.hpp"
-#include "planners/shorten/priced_taut.hpp"
+#include "planners/shorten/taut_path.hpp"
 #include "solve/replanner.hpp"
 #include "solve/solve.hpp"
 #include "worlds/plane/grid_world.hpp"

@@ -14,8 +14,7 @@
 #include "bench/report.hpp"
 #include "bench/test_graphs.hpp"
 #include "core/search/search.hpp"
-#include "planners/graph/queue_choice.hpp"
-#include "planners/graph/reduce_graph.hpp"
+#include "planners/graph/roadmap_search.hpp"
 
 namespace warren::bench {
 namespace {

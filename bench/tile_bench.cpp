@@ -11,7 +11,6 @@
 #include "bench/report.hpp"
 #include "core/base/rng.hpp"
 #include "planners/mazes/tile_plane.hpp"
-#include "planners/mazes/tile_reduction.hpp"
 #include "planners/mazes/tiled_prm_lattice.hpp"
 #include "planners/roadmap/prm.hpp"
 #include "scenes/mazes/maze_generator.hpp"

@@ -10,7 +10,6 @@
 
 #include "core/plane/geometry.hpp"
 #include "planners/visibility/visibility_graph.hpp"
-#include "planners/visibility/visibility_path.hpp"
 #include "scenes/files/scene_io.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "scenes/scene/polygon_generator.hpp"

@@ -12,7 +12,7 @@
 
 #include "core/base/error.hpp"
 #include "core/plane/geometry.hpp"
-#include "planners/graph/components.hpp"
+#include "planners/graph/assemble_graph.hpp"
 #include "solve/explain/blocked_end.hpp"
 #include "solve/kept/roadmap.hpp"
 #include "solve/kinds/kind_of_problem.hpp"

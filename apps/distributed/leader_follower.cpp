@@ -19,7 +19,7 @@
 #include "core/plane/cell_walls.hpp"
 #include "parallel/once.hpp"
 #include "parallel/ticker.hpp"
-#include "planners/mazes/tile_reduction.hpp"
+#include "planners/mazes/tile_plane.hpp"
 #include "scenes/mazes/spanning_maze.hpp"
 
 namespace warren::distributed {

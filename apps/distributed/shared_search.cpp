@@ -16,7 +16,7 @@
 #include "core/base/raw_vector.hpp"
 #include "core/search/bidirectional_search.hpp"
 #include "core/search/union_find.hpp"
-#include "planners/mazes/tile_reduction.hpp"
+#include "planners/mazes/tile_plane.hpp"
 
 namespace warren::distributed {
 namespace {

@@ -15,10 +15,8 @@
 #include "core/search/search_queues.hpp"
 #include "pictures/layers/draw_bodies.hpp"
 #include "planners/graph/assemble_graph.hpp"
-#include "planners/graph/components.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 #include "spatial/points/point_grid.hpp"
-#include "spatial/points/tile_order.hpp"
 
 namespace warren::studies {
 namespace {

@@ -11,7 +11,7 @@
 #include "bench/report.hpp"
 #include "core/base/rng.hpp"
 #include "planners/lengths/lattice_passages.hpp"
-#include "planners/lengths/route_query.hpp"
+#include "planners/lengths/route_index.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 
 namespace warren::bench {

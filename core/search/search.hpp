@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One search for explicit and implicit graphs: A* (Hart, Nilsson, Raphael 1968), which is best_first(), Dijkstra (A*
 // with a zero heuristic), and breadth- and depth-first search. From both ends: bidirectional_search.hpp. Of roadmaps
-// the queue is IndexedHeap<4> unless --queue says otherwise (planners/graph/queue_choice.hpp), the heuristic the
+// the queue is IndexedHeap<4> unless --queue says otherwise (planners/graph/roadmap_search.hpp), the heuristic the
 // straight line or the world's metric (estimated_way() in planners/graph/roadmap_options.hpp); from 50,000 vertices on
 // both ends search (planners/graph/roadmap_search.cpp). Maps take a BucketQueue and heuristics of their own
 // (planners/grid). Loops of their own have cars on grids (ARA*, planners/grid/motion_lattice.hpp), fields of prices

@@ -11,7 +11,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/trigonometry.hpp"
-#include "planners/graph/components.hpp"
+#include "planners/graph/assemble_graph.hpp"
 
 namespace warren {
 

@@ -41,7 +41,6 @@
 #include "planners/roadmap/lazy_prm.hpp"
 #include "planners/roadmap/one_way_prm.hpp"
 #include "planners/trees/rrt_connect.hpp"
-#include "planners/trees/rrt_options.hpp"
 #include "planners/trees/rrt_star.hpp"
 
 namespace warren {

@@ -12,7 +12,6 @@
 #include "core/plane/geometry.hpp"
 #include "parallel/chunks.hpp"
 #include "planners/vertical_cells/cell_decomposition.hpp"
-#include "planners/visibility/noding.hpp"
 #include "spatial/obstacles/polygon_index.hpp"
 
 namespace warren {

@@ -3,17 +3,16 @@
 // Voronoi diagram of walls, polygons' sides and the frame (the bounds' sides; without bounds, those of the obstacles'
 // box), pruned to what lies inside the frame and outside all polygons.
 //
-// The diagram is exact for ends snapped to a grid of 2^-29 of half the world (planners/visibility/noding.hpp);
-// clearances are computed anew at each curve's narrowest point, as distances to the obstacles that were given. Gaps
-// narrower than `resolution` (a few units of the grid) count as closed. Polygons must not overlap, which the sweep of
-// planners/vertical_cells/cell_decomposition.hpp finds.
-// Time O(n log n), 20 microseconds a segment (bench/cells_bench.cpp).
+// The diagram is exact for ends snapped to a grid of 2^-29 of half the world (snap_segments()); clearances are computed
+// anew at each curve's narrowest point, as distances to the obstacles that were given. Gaps narrower than `resolution`
+// (a few units of the grid) count as closed. Polygons must not overlap, which decompose() finds; both stand in
+// planners/vertical_cells/cell_decomposition.hpp.
 //
 // Below it, the Voronoi diagram of segments with integer ends, as plain arrays: Boost.Polygon's (Fortune's sweep,
 // exact predicates), of which only finite edges between different obstacles are kept. Topology is exact; vertices are
-// right to 64 units in the last place. Time O(n log n), memory about 1 kB a segment while it is built, one thread;
-// about 25 microseconds a segment of polygons. Boost asks for nothing but predicates in between, so they look at the
-// deadline.
+// right to 64 units in the last place. Time O(n log n), 20 to 25 microseconds a segment (bench/cells_bench.cpp), one
+// thread; memory about 1 kB a segment while it is built. Boost asks for nothing but predicates in between, so they look
+// at the deadline.
 #pragma once
 
 #include <cstdint>

@@ -15,10 +15,9 @@
 #include "core/search/search.hpp"
 #include "core/search/union_find.hpp"
 #include "parallel/sort.hpp"
+#include "planners/graph/any_world.hpp"
 #include "planners/graph/assemble_graph.hpp"
-#include "planners/graph/components.hpp"
-#include "planners/graph/no_path.hpp"
-#include "planners/graph/queue_choice.hpp"
+#include "planners/graph/roadmap_search.hpp"
 
 namespace warren {
 namespace {

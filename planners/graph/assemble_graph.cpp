@@ -269,4 +269,19 @@ Graph assemble_graph(std::size_t vertex_count, std::span<const Edge> edges, cons
   return Assembly(vertex_count, parts, execution).run();
 }
 
+Components components(const Graph& graph, const Execution& execution) {
+  Components result{joined_labels(graph.vertex_count(), execution, [&](VertexId v, const auto& join) {
+    for (const VertexId w : graph.neighbours(v)) {
+      if (w > v) break;  // each edge once, from its larger end
+      join(w);
+    }
+  })};
+  result.count = sum_of_chunks(result.label.size(), std::size_t{1} << 14, execution.quiet(), [&](Range r) {
+    std::size_t count = 0;
+    for (std::size_t v = r.first; v < r.last; ++v) count += result.label[v] == v ? 1 : 0;
+    return count;
+  });
+  return result;
+}
+
 }  // namespace warren

@@ -15,6 +15,7 @@
 // tile order: see docs/performance.md and bench/graph_bench.cpp.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <span>
 #include <utility>
@@ -42,6 +43,66 @@ Graph with_lengths(Graph graph, const Execution& execution, const Length& length
     for (const VertexId w : graph.neighbours(v)) lengths[end++] = length(v, w);
   });
   return std::move(graph).with_lengths(std::move(lengths));
+}
+
+/// Connected components on all cores: label[v] is the smallest vertex of v's component, the same as by
+/// bench/plain_graph.hpp. O(E α(V)); memory: the labels.
+Components components(const Graph& graph, const Execution& execution);
+
+/// Union-find that many threads work on at once without a lock: the larger root is hung under the smaller one with
+/// compare-and-swap, and whoever looks for a root halves the path to it. Invariants: parent[v] <= v, and a vertex that
+/// is no root never becomes one again. So the root of a tree is its smallest vertex at all times, whatever the order of
+/// unions. Only the parents pass between threads, no other memory depends on them: relaxed order is enough. Refers to
+/// parents that live elsewhere, where each vertex is its own at first. Any threads may call all of it.
+class UnionForest {
+ public:
+  explicit UnionForest(std::span<VertexId> parent) : parent_(parent) {}
+
+  VertexId parent(VertexId v) const { return std::atomic_ref(parent_[v]).load(std::memory_order_relaxed); }
+  VertexId root(VertexId v) const {
+    for (VertexId p = parent(v); p != v; p = parent(v)) {
+      const VertexId above = parent(p);
+      if (above == p) return p;
+      std::atomic_ref(parent_[v]).store(above, std::memory_order_relaxed);  // path halving: an ancestor stays one
+      v = above;
+    }
+    return v;
+  }
+  /// The root without writing on the way: another vertex may hold its final label already.
+  VertexId root_of(VertexId v) const {
+    for (VertexId p = parent(v); p != v; p = parent(v)) v = p;
+    return v;
+  }
+  void join(VertexId a, VertexId b) const {
+    if (parent(a) == parent(b)) return;  // most edges of a graph join what is one tree already
+    for (;;) {
+      a = root(a);
+      b = root(b);
+      if (a == b) return;
+      if (a < b) std::swap(a, b);
+      VertexId expected = a;  // fails when another thread has hung this root meanwhile: look again
+      if (std::atomic_ref(parent_[a]).compare_exchange_strong(expected, b, std::memory_order_relaxed)) return;
+    }
+  }
+
+ private:
+  std::span<VertexId> parent_;
+};
+
+/// Which of 0 .. n - 1 hang together: each(v, join) calls join(w) for those that v is joined with, of each pair for one
+/// of the two at least. For each the smallest one of its set, whatever the order of the unions. Throws Stopped.
+template <class Each>
+RawVector<VertexId> joined_labels(std::size_t n, const Execution& execution, const Each& each) {
+  constexpr std::size_t grain = std::size_t{1} << 14;
+  execution.reserve(n * sizeof(VertexId));
+  RawVector<VertexId> label(n);
+  for_each_index<VertexId>(n, grain, execution.quiet(), [&](VertexId v) { label[v] = v; });
+  const UnionForest forest(label);
+  for_each_index<VertexId>(n, grain, execution, [&](VertexId v) { each(v, [&](VertexId w) { forest.join(v, w); }); });
+  for_each_index<VertexId>(n, grain, execution.quiet(), [&](VertexId v) {
+    std::atomic_ref(label[v]).store(forest.root_of(v), std::memory_order_relaxed);
+  });
+  return label;
 }
 
 }  // namespace warren

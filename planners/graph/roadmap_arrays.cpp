@@ -10,7 +10,7 @@
 #include "core/base/error.hpp"
 #include "core/plane/se2.hpp"
 #include "parallel/chunks.hpp"
-#include "planners/graph/components.hpp"
+#include "planners/graph/assemble_graph.hpp"
 
 namespace warren {
 namespace {

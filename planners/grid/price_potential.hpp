@@ -7,8 +7,7 @@
 // Made by fast marching (Kimmel, Sethian, PNAS 95, 1998) over the triangles from the goal on. Around the goal and
 // behind corners, where all ways fan out of a point, the result is too steep, by the square root of 2 at worst: there
 // the price is lowered by what is too much, and marched again; at last all values are divided by the worst that is
-// left. A proof does not depend on how it was made: who checks it (verify/judges/verify_bound) looks at each
-// triangle.
+// left. A proof does not depend on how it was made: who checks it (verify/judges/verify_bound) looks at each triangle.
 #pragma once
 
 #include <cstdint>

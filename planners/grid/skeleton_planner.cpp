@@ -14,9 +14,8 @@
 #include "core/search/search.hpp"
 #include "parallel/asked_memory.hpp"
 #include "parallel/sort.hpp"
+#include "planners/graph/any_world.hpp"
 #include "planners/graph/assemble_graph.hpp"
-#include "planners/graph/components.hpp"
-#include "planners/graph/no_path.hpp"
 #include "planners/graph/roadmap_search.hpp"
 #include "spatial/maps/free_cells.hpp"
 
@@ -353,12 +352,12 @@ class SkeletonPlan {
                               .execution = execution_,
                               .estimate_fits = false};  // from the start alone
     const SearchResult result = search_roadmap(assemble_graph(cells_->size(), edges_, execution_), asked);
-    plan_.expanded = result.expanded;
+    plan_.counters.expanded = result.expanded;
     if (result.status != SearchStatus::found) return;
     plan_.outcome = Outcome::solved;
     std::uint32_t least = DistanceField::far;
     for (const VertexId v : result.path) {
-      plan_.cells.push_back(cells_->cell(v));
+      plan_.path.push_back(cells_->cell(v));
       least = std::min(least, squared(v));
     }
     plan_.clearance = 0.5 * std::sqrt(least);

@@ -18,7 +18,7 @@
 #include "core/search/graph.hpp"
 #include "planners/axis/medial_axis_planner.hpp"
 #include "planners/graph/roadmap_options.hpp"
-#include "spatial/maps/distance_field.hpp"
+#include "spatial/maps/free_cells.hpp"
 
 namespace warren {
 
@@ -33,13 +33,11 @@ enum class SkeletonEnds : std::uint8_t { go, stay };
 /// topology goes first: the free cells stay as connected as they were over common sides, and no loop around blocked
 /// cells closes or opens (a simple point of the 4-connected plane: Kong, Rosenfeld, Computer Vision 48, 1989; the
 /// order: Pudney, Computer Vision and Image Understanding 72, 1998). Cells that shall be kept stay, so the skeleton
-/// joins them wherever the map does. What remains: the kept cells, a loop around each island of blocked cells, and
-/// what joins these; dead ends are gone. O(cells log distances) time, serial; 9 bits a cell and 4 bytes a cell that
-/// waits.
+/// joins them wherever the map does. What remains: the kept cells, a loop around each island of blocked cells, and what
+/// joins these; dead ends are gone. O(cells log distances) time, serial; 9 bits a cell and 4 bytes a cell that waits.
 ///
 /// blocked: set bits; the outside is blocked too. field: of what keeps its distance, the same size; its order counts,
-/// and where ends stay its slope. kept: free cells that stay. Set bits of the result are the skeleton. Throws
-/// Stopped.
+/// and where ends stay its slope. kept: free cells that stay. Set bits of the result are the skeleton. Throws Stopped.
 Bitmap map_skeleton(const Bitmap& blocked, const DistanceField& field, std::span<const Cell> kept,
                     const Execution& execution, SkeletonEnds ends = SkeletonEnds::go);
 
@@ -50,14 +48,10 @@ struct SkeletonOptions {
   QueueKind queue = QueueKind::heap;
 };
 
-struct SkeletonPath {
-  Outcome outcome = Outcome::not_connected;  ///< or solved, start_blocked, goal_blocked
-  std::vector<Cell> cells;                   ///< start to goal, each a step from the one before
-  double clearance = 0.0;                    ///< least distance of their middles from what is blocked, in cells
-  RoadmapSize roadmap;                       ///< the skeleton: cells, steps, components
-  Separation separation;                     ///< only for not_connected; the gap in cells
-  std::uint64_t expanded = 0;
-  StageTimes seconds;
+/// Solved, start_blocked, goal_blocked or not_connected. Path: cells, each a step from the one before; roadmap: the
+/// skeleton's cells, steps, components; separation: in cells.
+struct SkeletonPath : Solution<Cell> {
+  double clearance = 0.0;  ///< least distance of the path's middles from what is blocked, in cells
 };
 
 /// What of a plan depends on neither start nor goal: the skeleton itself does. Any number of threads may plan on it.

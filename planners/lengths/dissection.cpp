@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/lengths/dissection.hpp"
+#include "planners/lengths/core_graph.hpp"
 
 #include <algorithm>
 #include <array>

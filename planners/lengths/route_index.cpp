@@ -11,7 +11,6 @@
 #include "parallel/chunks.hpp"
 #include "parallel/sort.hpp"
 #include "planners/lengths/core_graph.hpp"
-#include "planners/lengths/dissection.hpp"
 
 namespace warren {
 namespace {

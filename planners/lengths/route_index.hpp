@@ -38,13 +38,15 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
 
+#include "core/base/raw_vector.hpp"
 #include "core/run/execution.hpp"
 #include "parallel/once.hpp"
-#include "planners/lengths/cell_marks.hpp"
 #include "planners/lengths/lattice_passages.hpp"
 #include "planners/lengths/separator_fronts.hpp"
 
@@ -114,7 +116,7 @@ bool route_index_pays(std::uint64_t junctions, std::uint64_t cells);
 
 /// What an index is made of, but for the passages.
 struct RouteArrays {
-  ArrayOrView<std::uint64_t> marks;  ///< of all cells, see cell_marks.hpp
+  ArrayOrView<std::uint64_t> marks;  ///< of all cells, see core_graph.hpp
   PieceArrays pieces;
   ArrayOrView<std::uint64_t> gates;         ///< a bit a place; empty if there is no gate
   ArrayOrView<std::uint32_t> gates_before;  ///< before each row of 64 places; empty if there is no gate
@@ -213,5 +215,27 @@ bool is_read_in_parts(std::string_view section);
 /// Throws InputError unless every number in the arrays is in its range; what is wrong nevertheless gives wrong answers
 /// and nothing worse. O(bytes).
 void check_route_arrays(const LatticePlaces& places, const RouteArrays& arrays);
+
+// Questions to a route index: the shortest length between two cells, and a path of that length. Both cells climb to the
+// core; cells of one tree meet in it. In the core both look around up to the gates of their leaf, and the fronts join
+// these, if the other cell wasn't nearer. Exact: the length is that of a breadth-first search of the whole lattice.
+// Cost: microseconds in trees, then the rows of the fronts above both; see bench/roadmaps/route_index_bench.cpp.
+
+/// Scratch of one thread: 8 bytes a gate. Refers to the index, which must outlive it.
+class RouteQuery {
+ public:
+  explicit RouteQuery(const RouteIndex& index);
+  ~RouteQuery();
+  RouteQuery(RouteQuery&&) noexcept;
+
+  /// In steps; none where no path joins the cells. Throws InputError for a cell outside the lattice.
+  std::optional<std::uint32_t> length(CellId start, CellId goal);
+  /// The cells of a shortest path, both ends included; empty where there is none. Throws Stopped.
+  RawVector<CellId> path(CellId start, CellId goal, const Execution& execution = {.threads = 1});
+
+ private:
+  class Scratch;
+  std::unique_ptr<Scratch> scratch_;
+};
 
 }  // namespace warren

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/lengths/route_query.hpp"
+#include "planners/lengths/route_index.hpp"
 
 #include <algorithm>
 #include <array>

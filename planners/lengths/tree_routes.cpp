@@ -5,7 +5,6 @@
 
 #include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
-#include "planners/lengths/cell_marks.hpp"
 
 namespace warren {
 namespace {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "planners/graph/components.hpp"
+#include "planners/graph/assemble_graph.hpp"
 #include "planners/mazes/tile_plane.hpp"
 
 namespace warren {

@@ -7,8 +7,8 @@
 // and nothing to look up before it. Rows are written tile by tile in parallel. Then dead ends are peeled again, now
 // across borders: first by ranges of tiles in parallel, where a range lets vertices alone that have an edge out of it,
 // so that no two ranges ever meet; then from the vertices where that had to stop. Keys keep their numbers, by which
-// paths and other processes know them (planners/graph/reduce_graph.hpp would number them anew). Cost: O(keys); 33 bytes
-// a key.
+// paths and other processes know them (planners/graph/roadmap_search.hpp would number them anew). Cost: O(keys); 33
+// bytes a key.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@
 #include "core/run/execution.hpp"
 #include "parallel/chunks.hpp"
 #include "planners/mazes/tile_grid.hpp"
-#include "planners/mazes/tile_reduction.hpp"
+#include "planners/mazes/tile_plane.hpp"
 #include "planners/mazes/tile_source.hpp"
 
 namespace warren {

@@ -6,7 +6,7 @@
 #include <cassert>
 
 #include "core/base/error.hpp"
-#include "planners/graph/queue_choice.hpp"
+#include "planners/graph/roadmap_search.hpp"
 
 namespace warren {
 namespace {

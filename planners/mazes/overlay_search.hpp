@@ -40,7 +40,7 @@
 #include "parallel/chunks.hpp"
 #include "planners/mazes/overlay.hpp"
 #include "planners/mazes/tile_grid.hpp"
-#include "planners/mazes/tile_reduction.hpp"
+#include "planners/mazes/tile_plane.hpp"
 
 namespace warren {
 

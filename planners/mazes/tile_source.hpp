@@ -5,8 +5,7 @@
 // Walls that are held are filed by tile: each tile holds every wall whose box, grown by the halo, meets the tile, so
 // that a tile can be worked on without looking elsewhere.
 //
-// Two streaming passes over the walls: count (wall_counts), then scatter, all tiles at once or band by band
-// (tile_bands); chunk borders depend on the number of walls alone and each chunk has its own places, so there are no
+// Two streaming passes over the walls: count, then scatter, all tiles at once or band by band; chunk borders depend on the number of walls alone and each chunk has its own places, so there are no
 // atomics and the order is the walls' order. A wall that is a multiple of
 // 1/128 in every coordinate and at most 64 long along each axis is filed in 8 bytes (NarrowWall), whatever it came as;
 // any other as doubles (wide). A long wall is filed in the tiles that it passes, row of tiles by row of tiles,
@@ -34,7 +33,6 @@
 #include "core/run/execution.hpp"
 #include "parallel/chunks.hpp"
 #include "planners/mazes/tile_grid.hpp"
-#include "planners/mazes/wall_steps.hpp"
 
 namespace warren {
 

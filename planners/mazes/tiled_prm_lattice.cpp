@@ -11,8 +11,8 @@
 #include "core/base/error.hpp"
 #include "core/base/raw_vector.hpp"
 #include "parallel/asked_memory.hpp"
-#include "planners/graph/components.hpp"
-#include "planners/graph/no_path.hpp"
+#include "planners/graph/any_world.hpp"
+#include "planners/graph/assemble_graph.hpp"
 
 namespace warren {
 namespace {

@@ -4,7 +4,7 @@
 //
 //   partition   walls are filed by tile, in streaming passes, band by band                 (tile_source)
 //   tiles       one thread a tile, all in its cache: milestones and edges stand until a    (tile_plane)
-//               wall clears them; dead ends are peeled, chains contracted                   (tile_reduction)
+//               wall clears them; dead ends are peeled, chains contracted
 //   overlay     what is left of all tiles, peeled again across borders                      (overlay)
 //   search      from both ends on the overlay's core; the path's chains are expanded again  (overlay_search)
 //
@@ -12,7 +12,7 @@
 // may differ in their vertices). Peeling and contraction are exact for any set of walls: mazes with loops, open space,
 // crossing and slanted segments; only the gain differs. Borders of tiles and all switches between two ways of working
 // follow from counts, so path and counters are the same for any thread count. Cost in a maze, ns of CPU a cell: see
-// bench/tiled_phases.cpp; memory beside the walls: 8 bytes a wall of a band (tile_bands) until the tiles are done, then
+// bench/tiled_phases.cpp; memory beside the walls: 8 bytes a wall of a band until the tiles are done, then
 // a fraction of a byte a cell. In open space every milestone is a vertex of the overlay: about 80 bytes each. A tile is
 // a function of its number, its walls and the vertices that start and goal join; tiles share nothing, and what they
 // hand back is plain values. So walls need not be held: where they come from a CellWallSource, each tile's are made,
@@ -36,7 +36,6 @@
 #include "planners/mazes/overlay.hpp"
 #include "planners/mazes/overlay_search.hpp"
 #include "planners/mazes/tile_plane.hpp"
-#include "planners/mazes/tile_reduction.hpp"
 #include "planners/mazes/tile_source.hpp"
 
 namespace warren {

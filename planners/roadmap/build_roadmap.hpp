@@ -21,12 +21,10 @@
 #include "parallel/chunks.hpp"
 #include "planners/graph/any_world.hpp"
 #include "planners/graph/assemble_graph.hpp"
-#include "planners/graph/components.hpp"
 #include "planners/graph/roadmap_options.hpp"
 #include "planners/graph/roadmap_search.hpp"
 #include "planners/roadmap/connection.hpp"
 #include "planners/roadmap/milestones.hpp"
-#include "planners/roadmap/roadmap_growth.hpp"
 
 namespace warren {
 

@@ -37,7 +37,6 @@
 #include "planners/graph/roadmap_search.hpp"
 #include "planners/roadmap/connection.hpp"
 #include "planners/roadmap/plan_in_rounds.hpp"
-#include "planners/roadmap/roadmap_growth.hpp"
 #include "spatial/points/neighbours.hpp"
 
 namespace warren {

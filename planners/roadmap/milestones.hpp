@@ -21,7 +21,7 @@
 #include "planners/graph/any_world.hpp"
 #include "planners/graph/roadmap_options.hpp"
 #include "planners/roadmap/sampler.hpp"
-#include "spatial/points/tile_order.hpp"
+#include "spatial/points/point_grid.hpp"
 
 namespace warren {
 

@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "planners/graph/any_world.hpp"
-#include "planners/graph/queue_choice.hpp"
 #include "planners/graph/roadmap_search.hpp"
 #include "planners/roadmap/build_roadmap.hpp"
 #include "planners/roadmap/plan_in_rounds.hpp"
@@ -153,9 +152,8 @@ class OneWayPlan final : public Rounds<W> {
 
 }  // namespace detail
 
-/// Plans from start to goal as prm does, or (lazy) as lazy_prm. `keep`, where
-/// given, receives the roadmap of the last round; its graph is directed: w is among the neighbours of v where the
-/// motion from v to w is free.
+/// Plans from start to goal as prm does, or (lazy) as lazy_prm. `keep`, where given, receives the roadmap of the last
+/// round; its graph is directed: w is among the neighbours of v where the motion from v to w is free.
 template <class State, bool one_way>
 Solution<State> one_way_prm(const AnyWorld<State, one_way>& world, const State& start, const State& goal,
                             const RoadmapOptions& options, bool lazy, const Execution& execution,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What all planners that draw samples in rounds share: prm, lazy_prm and one_way_prm. A round draws
 // milestones in tile order, start and goal after them, and looks for a path; with samples on auto a round that leaves
-// start and goal apart is followed by a larger one (roadmap_growth.hpp), until a documented cap.
+// start and goal apart is followed by a larger one (connection.hpp), until a documented cap.
 #pragma once
 
 #include <optional>
@@ -14,12 +14,11 @@
 #include "core/search/graph.hpp"
 #include "core/search/search.hpp"
 #include "parallel/asked_memory.hpp"
-#include "planners/graph/no_path.hpp"
+#include "planners/graph/any_world.hpp"
 #include "planners/graph/roadmap_arrays.hpp"
 #include "planners/graph/roadmap_options.hpp"
 #include "planners/roadmap/connection.hpp"
 #include "planners/roadmap/milestones.hpp"
-#include "planners/roadmap/roadmap_growth.hpp"
 
 namespace warren::detail {
 

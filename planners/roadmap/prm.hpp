@@ -15,7 +15,6 @@
 
 #include "planners/graph/any_world.hpp"
 #include "planners/graph/assemble_graph.hpp"
-#include "planners/graph/components.hpp"
 #include "planners/graph/roadmap_search.hpp"
 #include "planners/roadmap/plan_in_rounds.hpp"
 

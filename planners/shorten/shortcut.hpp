@@ -5,9 +5,8 @@
 // check as the planner's, and the path gets shorter in `length`, which may be another measure than the world's metric.
 // Candidates of a round are judged on all cores against the path as it stands, then made in the order of their gain
 // where they don't overlap: the result does not depend on the threads. What rounding may feign is no gain and no
-// difference between two, so that a path far from the origin is shortened as it is near it.
-// Ends when rounds bring less than 0.01 % for a while. The path gets near a shortest one of its homotopy class; it is
-// no proof of anything.
+// difference between two, so that a path far from the origin is shortened as it is near it. Ends when rounds bring less
+// than 0.01 % for a while. The path gets near a shortest one of its homotopy class; it is no proof of anything.
 // improve_path() is for searches that go on and have a path to improve again and again: first it skips states that are
 // not needed, then its rounds cut, pull, and let states drift: each a share of the way towards a random state, where
 // the share falls by a fifth on failure and doubles on luck, for each state its own: so paths slide along obstacles and

@@ -15,12 +15,11 @@
 #include "core/base/solution.hpp"
 #include "core/base/world.hpp"
 #include "parallel/chunks.hpp"
+#include "planners/graph/any_world.hpp"
 #include "planners/graph/assemble_graph.hpp"
-#include "planners/graph/no_path.hpp"
 #include "planners/graph/roadmap_arrays.hpp"
-#include "planners/graph/state_index.hpp"
+#include "planners/graph/roadmap_options.hpp"
 #include "planners/roadmap/sampler.hpp"
-#include "planners/trees/rrt_options.hpp"
 #include "spatial/points/kd_tree.hpp"
 
 namespace warren {

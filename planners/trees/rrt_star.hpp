@@ -2,14 +2,13 @@
 // RRT* (Karaman, Frazzoli, Int. J. Robotics Research 30(7), 2011, the variant by k nearest neighbours): a tree from the
 // start whose states take the cheapest parent among their e (1 + 1/d) ln n nearest, and become the parent of those that
 // get cheaper by it: the cost approaches the least one as the tree grows. It is advanced by counted work, and can be
-// told a path that others found.
-// Parents are tried in the order of what the state would cost with them, so that most steps check one motion or two
-// instead of all. Costs are always right: where a state gets cheaper, its subtree does. Neighbours are found by the
-// world's embedding; the metric decides among them, in the direction of travel, so that one-way worlds are served.
-// A new state within a step of a goal tries it at once. Informed: samples from planners/trees/informed_sampler.hpp, and
-// no state is added through which a path can't be cheaper than the best.
-// Cost a step: one neighbour query or two, O(log^2 n), two metrics a neighbour, and the motion checks, which dominate.
-// Memory: a MotionTree, and 12 bytes a state.
+// told a path that others found. Parents are tried in the order of what the state would cost with them, so that most
+// steps check one motion or two instead of all. Costs are always right: where a state gets cheaper, its subtree does.
+// Neighbours are found by the world's embedding; the metric decides among them, in the direction of travel, so that
+// one-way worlds are served. A new state within a step of a goal tries it at once. Informed: samples from
+// planners/roadmap/sampler.hpp, and no state is added through which a path can't be cheaper than the best. Cost a step:
+// one neighbour query or two, O(log^2 n), two metrics a neighbour, and the motion checks, which dominate. Memory: a
+// MotionTree, and 12 bytes a state.
 #pragma once
 
 #include <algorithm>
@@ -19,8 +18,7 @@
 #include <span>
 #include <vector>
 
-#include "planners/roadmap/roadmap_growth.hpp"
-#include "planners/trees/informed_sampler.hpp"
+#include "planners/roadmap/connection.hpp"
 #include "planners/trees/motion_tree.hpp"
 
 namespace warren {

@@ -45,7 +45,6 @@ class DoorPoints {
 
  private:
   Vec2 middle_of(std::uint32_t door) const;
-  bool strictly_inside(const VerticalCell& cell, Vec2 p) const;
 
   const CellDecomposition& cells_;
   std::vector<Vec2> middles_;

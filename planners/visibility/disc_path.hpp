@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The shortest path of a disc among polygons and walls, exactly: tangents between circles around the obstacles' corners
-// and arcs on them (planners/visibility/disc_ground), found by A* over tangents.
+// and arcs on them (planners/visibility/visibility_graph), found by A* over tangents.
 //
 // From a circle, and a side of it, a way leads on along the circle and then a tangent. A way is in the queue by its
 // length and the straight line from its end; when it comes first, and not before, its tangent is compared with the
@@ -12,10 +12,9 @@
 //                       it: circle and obstacle, both grown by the radius, cross twice at most
 //
 // Two searches are a bracket: one takes for free what keeps the radius less a trifle, so that nothing that is free is
-// missed: its length is a lower bound, and where it finds nothing there is no path. The other draws circles larger
-// by a trifle, so that rounding brings no path nearer than the radius. Mostly the first one's way stands the second's
-// test, and is not searched again. The trifle: 1e-12 of the radius, and some units in the last place of the world's
-// size.
+// missed: its length is a lower bound, and where it finds nothing there is no path. The other draws circles larger by a
+// trifle, so that rounding brings no path nearer than the radius. Mostly the first one's way stands the second's test,
+// and is not searched again. The trifle: 1e-12 of the radius, and some units in the last place of the world's size.
 //
 // Time as a lazy visibility search, O(k log k) a circle that is reached, k pieces in sight of its corner, and some 0.2
 // us a tangent tried; memory 300 bytes a corner and 100 a tangent.
@@ -29,7 +28,7 @@
 #include "core/base/solution.hpp"
 #include "core/base/types.hpp"
 #include "core/run/execution.hpp"
-#include "planners/visibility/disc_ground.hpp"
+#include "planners/visibility/visibility_graph.hpp"
 
 namespace warren {
 

@@ -24,15 +24,17 @@
 #include <vector>
 
 #include "core/base/raw_vector.hpp"
+#include "core/base/solution.hpp"
 #include "core/base/types.hpp"
 #include "core/plane/polygon.hpp"
 #include "core/run/execution.hpp"
 #include "core/search/graph.hpp"
 #include "core/search/search.hpp"
+#include "planners/graph/roadmap_arrays.hpp"
 #include "planners/graph/roadmap_options.hpp"
 #include "planners/visibility/plane_pieces.hpp"
-#include "planners/visibility/rotational_sweep.hpp"
 #include "spatial/obstacles/polygon_index.hpp"
+#include "spatial/obstacles/segment_grid.hpp"
 
 namespace warren {
 
@@ -46,8 +48,7 @@ namespace warren {
 /// sectors are wider than half a turn, and the line through both leaves the obstacles at each on one side. Shortest
 /// paths bend nowhere else.
 ///
-/// Cost of one look: planners/visibility/plane_pieces and planners/visibility/rotational_sweep, O(k log k) for k pieces
-/// that may be seen. Immutable; any number of threads may read.
+/// Cost of one look: O(k log k) for k pieces that may be seen. Immutable; any number of threads may read.
 class VisibleCorners {
  public:
   VisibleCorners(const PlaneObstacles& obstacles, const Execution& execution);
@@ -165,5 +166,113 @@ std::vector<Edge> sampled_visibility(const PolygonIndex& polygons, Vec2 start, V
 /// How deep the segment runs inside of polygons: the greatest distance of one of `places` points of it to the outline
 /// of a polygon around it; 0 if none of them is inside.
 double depth_inside(const PolygonIndex& polygons, const Segment& segment, std::size_t places);
+
+// What a disc of any radius meets among polygons and walls, contact allowed: the corners that its centre may go around
+// on a circle, and which of them may follow each other on a path.
+//
+// Circles: around each corner with a free sector wider than half a turn (VisibleCorners), and
+// around each wall without length that stands alone. The disc touches the corner, and nothing else that ends there, in
+// the directions n with n . t <= 0 for both sides t of the sector: the circle's cone.
+//
+// Candidates: if a tangent of two circles is free for the disc, then the corners see each other as points do, because
+// the strip, or the two triangles, between tangent and line of the corners is swept by the disc. So the neighbours of
+// the visibility graph are all that can follow, for every radius. Walls without length hide nothing and are candidates
+// of all. Without bounds the centre stays in the box of the obstacles, which is no wall.
+//
+// Build as VisibleCorners, O(n log n); 200 bytes a corner.
+
+/// The circle around a corner; its radius is the disc's. Directions are unit vectors.
+struct DiscCircle {
+  Vec2 centre;
+  Vec2 first, last;  ///< the sides of the free sector, which runs anticlockwise from first to last
+  Vec2 begin;        ///< the first direction of the cone, anticlockwise
+  double width;      ///< of the cone, radians, at most half a turn; a whole turn where the corner stands alone
+  VertexId vertex;   ///< of the visible corners; no_vertex: a wall without length
+
+  bool whole() const { return vertex == no_vertex; }
+};
+
+/// Immutable; any number of threads may read.
+struct DiscGround {
+  /// Throws Stopped at the deadline and the memory limit.
+  DiscGround(const PlaneObstacles& obstacles, const Execution& execution);
+
+  VisibleCorners corners;
+  Box box;                        ///< of obstacles and bounds; empty where there is nothing
+  std::optional<Box> room;        ///< where the centre must stay, where there are obstacles but no bounds
+  std::vector<Segment> segments;  ///< pieces of the obstacles, then walls without length that stand alone
+  SegmentGrid grid;               ///< of the segments
+  std::vector<DiscCircle> circles;
+  std::vector<std::uint32_t> circle_of;  ///< number of each vertex's, where its sector is wider than half a turn
+  std::uint32_t first_whole = 0;         ///< the circles from here on go around walls without length
+};
+
+/// A ground, and which corners see each other, for questions that are many: the discs' radius, start and goal are each
+/// question's own. Immutable; any number of threads may plan on it.
+struct DiscRoadmap : NotCopied {
+  /// Throws as VisibilityGraph; `known`: its graph, where that is there already.
+  DiscRoadmap(const PlaneObstacles& obstacles, const Execution& execution, std::optional<Graph> known = {});
+
+  const DiscGround ground;
+  const VisibilityGraph graph;  ///< refers to the ground's corners
+};
+
+// The planner `visibility`: the shortest path for a point among polygons and walls, contact allowed, by the graph or
+// lazily.
+
+struct VisibilityOptions {
+  VisibilityEdges edges = VisibilityEdges::reduced;
+  bool lazy = false;                      ///< needs reduced edges and A* with the heap; InputError otherwise
+  SearchKind search = SearchKind::astar;  ///< bfs: fewest edges, neighbours ascending; dfs: some path
+  QueueKind queue = QueueKind::heap;
+
+  void validate() const;
+};
+
+/// Plans from start to goal among the obstacles. start_blocked, goal_blocked: strictly inside of a polygon or outside
+/// of the bounds (on a boundary is allowed). solved: with A* and Dijkstra the path is the shortest there is.
+/// not_connected: no path exists. Never throws Stopped: a deadline or a memory limit gives Outcome::stopped.
+/// `keep`, where given, receives the graph with start and goal (lazy: the edges that were found).
+Solution<Vec2> visibility_path(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal, const VisibilityOptions& options,
+                               const Execution& execution, PlannedRoadmap<Vec2>* keep = nullptr);
+
+/// The same where, without bounds, the obstacles' box confines the point (see confined()).
+Solution<Vec2> confined_visibility_path(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal,
+                                        const VisibilityOptions& options, const Execution& execution,
+                                        PlannedRoadmap<Vec2>* keep = nullptr);
+
+/// What of such a confined plan depends on neither start nor goal. Immutable; any number of threads may plan on it.
+struct VisibilityRoadmap : NotCopied {
+  /// Throws as VisibilityGraph; `known`: its graph, where that is there already.
+  VisibilityRoadmap(const PlaneObstacles& obstacles, VisibilityEdges edges, const Execution& execution,
+                    std::optional<Graph> known = {});
+
+  const Box box;  ///< that confines the point; empty: none does
+  const VisibleCorners corners;
+  const VisibilityGraph graph;  ///< refers to the corners
+};
+
+/// The same plan on a graph that is there already. Of the options `edges` is the roadmap's; it is not lazy.
+Solution<Vec2> visibility_path(const VisibilityRoadmap& roadmap, Vec2 start, Vec2 goal,
+                               const VisibilityOptions& options, const Execution& execution,
+                               PlannedRoadmap<Vec2>* keep = nullptr);
+
+/// The shortest path among polygons and walls without building the visibility graph: A* over the reduced graph, whose
+/// rows are found when a vertex is settled, and of which only those edges are looked for that a taut way can take: at
+/// each vertex the range of directions between straight on and the obstacle round which the way bends. Any optimal way
+/// through a vertex is taut at it whichever optimal way led there, so the path is as short as the graph's. One look a
+/// vertex settled, each over what can be seen in that range; memory 150 bytes a corner. Start and goal are not blocked,
+/// and different; start is vertex corners.size(), goal the next. Looks (neighbour_queries) and what they found
+/// (edges_checked) are added to the counters; `found`, where given, receives the edges. Throws Stopped, or says in the
+/// result that it was stopped.
+SearchResult lazy_visibility_search(const VisibleCorners& corners, Vec2 start, Vec2 goal, const Execution& execution,
+                                    Counters& counters, std::vector<Edge>* found = nullptr);
+
+/// Worlds without bounds, whose obstacles' box confines the reference point and is no wall: paths may run along
+/// polygons on it and around walls that end on it, and shortest paths don't leave it by themselves. But nobody gets
+/// between the box and a wall that lies on its side: a maze's outline shall not be walked around on the outside. For
+/// planners of shortest paths, which know bounds only: behind each wall on a side of the box stands a polygon that
+/// reaches to bounds well outside of the box; without such walls, or with bounds, nothing is changed.
+PlaneObstacles confined(PlaneObstacles obstacles);
 
 }  // namespace warren

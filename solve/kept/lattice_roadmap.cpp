@@ -9,7 +9,7 @@
 
 #include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
-#include "planners/lengths/cell_marks.hpp"
+#include "planners/lengths/core_graph.hpp"
 #include "planners/mazes/tiled_prm_lattice.hpp"
 #include "scenes/mazes/cell_bits.hpp"
 #include "scenes/mazes/maze_generator.hpp"

@@ -11,7 +11,7 @@
 #include "core/run/execution.hpp"
 #include "planners/graph/roadmap_arrays.hpp"
 #include "planners/lengths/route_index.hpp"
-#include "planners/roadmap/roadmap_growth.hpp"
+#include "planners/roadmap/connection.hpp"
 #include "solve/kept/lattice_roadmap.hpp"
 #include "solve/kept/roadmap_file.hpp"
 #include "solve/question/limits.hpp"

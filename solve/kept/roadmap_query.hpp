@@ -10,7 +10,7 @@
 #include <span>
 
 #include "core/run/execution.hpp"
-#include "planners/lengths/route_query.hpp"
+#include "planners/lengths/route_index.hpp"
 #include "planners/roadmap/ask_roadmap.hpp"
 #include "solve/answer/answer.hpp"
 #include "solve/answer/by_products.hpp"

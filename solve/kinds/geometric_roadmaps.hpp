@@ -14,8 +14,7 @@
 #include "planners/axis/medial_axis_planner.hpp"
 #include "planners/grid/skeleton_planner.hpp"
 #include "planners/vertical_cells/cell_planner.hpp"
-#include "planners/visibility/disc_ground.hpp"
-#include "planners/visibility/visibility_path.hpp"
+#include "planners/visibility/visibility_graph.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 #include "solve/kinds/sampled_roadmap.hpp"
 

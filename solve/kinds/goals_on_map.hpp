@@ -24,7 +24,7 @@
 #include "solve/kinds/kept_ways.hpp"
 #include "solve/kinds/plane_steps.hpp"
 #include "solve/question/question.hpp"
-#include "spatial/maps/distance_field.hpp"
+#include "spatial/maps/free_cells.hpp"
 
 namespace warren {
 

@@ -35,7 +35,7 @@
 #include "core/run/execution.hpp"
 #include "planners/graph/roadmap_arrays.hpp"
 #include "planners/roadmap/ask_roadmap.hpp"
-#include "planners/roadmap/roadmap_growth.hpp"
+#include "planners/roadmap/connection.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/answer/answer.hpp"
 #include "solve/answer/by_products.hpp"

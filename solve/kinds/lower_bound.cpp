@@ -11,7 +11,7 @@
 #include "core/plane/se2.hpp"
 #include "planners/grid/price_potential.hpp"
 #include "planners/visibility/disc_path.hpp"
-#include "planners/visibility/visibility_path.hpp"
+#include "planners/visibility/visibility_graph.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "solve/kinds/plane_steps.hpp"
 #include "solve/kinds/question_of_pose.hpp"

@@ -17,7 +17,6 @@
 #include "planners/roadmap/one_way_prm.hpp"
 #include "planners/roadmap/prm.hpp"
 #include "planners/shorten/shortcut.hpp"
-#include "planners/trees/rrt.hpp"
 #include "planners/trees/rrt_connect.hpp"
 #include "scenes/scene/scene.hpp"
 

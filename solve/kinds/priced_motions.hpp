@@ -15,7 +15,7 @@
 #include "core/base/whole.hpp"
 #include "core/plane/se2.hpp"
 #include "core/run/execution.hpp"
-#include "planners/shorten/priced_taut.hpp"
+#include "planners/shorten/taut_path.hpp"
 #include "scenes/scene/prices.hpp"
 #include "scenes/scene/scene.hpp"
 #include "worlds/prices/effective_map.hpp"

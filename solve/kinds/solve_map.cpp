@@ -12,8 +12,8 @@
 #include "core/base/error.hpp"
 #include "planners/grid/grid_search.hpp"
 #include "planners/grid/skeleton_planner.hpp"
-#include "planners/shorten/priced_taut.hpp"
 #include "planners/shorten/shortcut.hpp"
+#include "planners/shorten/taut_path.hpp"
 #include "solve/kinds/geometric_roadmaps.hpp"
 #include "solve/kinds/goals_on_map.hpp"
 #include "solve/kinds/kept_ways.hpp"
@@ -23,7 +23,7 @@
 #include "solve/kinds/solve_steps.hpp"
 #include "solve/kinds/solve_to_goal.hpp"
 #include "solve/question/planner_choice.hpp"
-#include "spatial/maps/distance_field.hpp"
+#include "spatial/maps/free_cells.hpp"
 #include "verify/judges/verify_point.hpp"
 #include "worlds/plane/grid_world.hpp"
 #include "worlds/prices/map_prices.hpp"
@@ -497,20 +497,16 @@ NamedLines lines_of(const OccupancyMap& map, const std::vector<std::pair<Cell, C
 
 /// What was found along the skeleton, in the world's coordinates.
 void take_skeleton_path(Answer& answer, const SkeletonPath& plan, const OccupancyMap& map, const WallProblem& problem) {
-  Solution<Vec2> solution;
-  solution.outcome = plan.outcome;
-  solution.separation = plan.separation;
-  solution.roadmap = plan.roadmap;
-  solution.counters.expanded = plan.expanded;
+  Solution<Vec2> solution{plan.outcome,    plan.stop_reason, {},          plan.roadmap,
+                          plan.separation, plan.counters,    plan.seconds};
   solution.separation.nearest_gap *= map.cell;
   for (std::array<double, 2>* place : {&solution.separation.near_start, &solution.separation.near_goal}) {
     const Vec2 in_world = world_point(map, {(*place)[0], (*place)[1]});
     *place = {in_world.x, in_world.y};
   }
-  solution.seconds = plan.seconds;
   if (plan.outcome == Outcome::solved) {
-    solution.path = path_over_cells(map, problem.start, plan.cells, problem.goal);
-    answer.path_figures.push_back({"cells", std::uint64_t{plan.cells.size()}});
+    solution.path = path_over_cells(map, problem.start, plan.path, problem.goal);
+    answer.path_figures.push_back({"cells", std::uint64_t{plan.path.size()}});
     answer.path_figures.push_back({"axis_clearance", plan.clearance * map.cell});
   }
   take_solution(answer, std::move(solution));

@@ -14,7 +14,7 @@
 #include "core/base/error.hpp"
 #include "core/plane/polygon.hpp"
 #include "core/plane/se2.hpp"
-#include "planners/visibility/visibility_path.hpp"
+#include "planners/visibility/visibility_graph.hpp"
 #include "solve/kinds/geometric_roadmaps.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 #include "solve/kinds/plane_steps.hpp"

@@ -5,7 +5,6 @@
 
 #include "planners/graph/roadmap_options.hpp"
 #include "planners/grid/grid_search.hpp"
-#include "planners/trees/rrt_options.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/question/question.hpp"
 #include "solve/question/solve_options.hpp"

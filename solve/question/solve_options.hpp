@@ -16,7 +16,6 @@
 #include "planners/axis/medial_axis_planner.hpp"
 #include "planners/graph/roadmap_options.hpp"
 #include "planners/grid/grid_search.hpp"
-#include "planners/trees/rrt_options.hpp"
 #include "planners/vertical_cells/cell_planner.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/question/figure.hpp"

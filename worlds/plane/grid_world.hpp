@@ -10,7 +10,6 @@
 
 #include "core/run/execution.hpp"
 #include "scenes/scene/occupancy_map.hpp"
-#include "spatial/maps/distance_field.hpp"
 #include "spatial/maps/free_cells.hpp"
 #include "worlds/plane/maze_world.hpp"
 #include "worlds/rasters/corridor_points.hpp"

@@ -16,7 +16,6 @@
 #include "parallel/once.hpp"
 #include "scenes/scene/occupancy_map.hpp"
 #include "scenes/scene/prices.hpp"
-#include "spatial/maps/distance_field.hpp"
 #include "spatial/maps/free_cells.hpp"
 #include "spatial/obstacles/wall_index.hpp"
 #include "worlds/prices/effective_map.hpp"

@@ -9,7 +9,7 @@
 #include "core/search/search.hpp"
 #include "parallel/sort.hpp"
 #include "pictures/formats/raster.hpp"
-#include "planners/graph/queue_choice.hpp"
+#include "planners/graph/roadmap_search.hpp"
 
 namespace warren::serve {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "apps/distributed/shared_solve.hpp"
 #include "core/base/error.hpp"
-#include "planners/mazes/tile_reduction.hpp"
+#include "planners/mazes/tile_plane.hpp"
 #include "scenes/files/maze_file_io.hpp"
 #include "scenes/files/read_world_io.hpp"
 #include "scenes/mazes/maze_generator.hpp"

@@ -13,7 +13,7 @@
 #include "core/base/error.hpp"
 #include "core/plane/geometry.hpp"
 #include "core/search/graph.hpp"
-#include "planners/visibility/noding.hpp"
+#include "planners/vertical_cells/cell_decomposition.hpp"
 #include "tests/planners/visibility/plane_worlds.hpp"
 
 namespace warren {

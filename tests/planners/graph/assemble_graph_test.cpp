@@ -11,7 +11,6 @@
 #include "bench/plain_graph.hpp"
 #include "core/base/error.hpp"
 #include "core/base/rng.hpp"
-#include "planners/graph/components.hpp"
 #include "tests/parallel/on_threads.hpp"
 #include "tests/refusals.hpp"
 #include "tests/seeds.hpp"

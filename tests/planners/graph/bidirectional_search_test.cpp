@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/graph/queue_choice.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/graph/reduce_graph.hpp"
+#include "planners/graph/roadmap_search.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/graph/components.hpp"
+#include "planners/graph/assemble_graph.hpp"
 
 #include <gtest/gtest.h>
 

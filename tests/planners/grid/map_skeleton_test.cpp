@@ -162,14 +162,14 @@ TEST(SkeletonPlan, FindsAPathWhereverTheCellsConnectAndTheWidestIfAsked) {
       ASSERT_EQ(path.outcome == Outcome::solved, joined);
       if (!joined) continue;
       ++solved;
-      EXPECT_EQ(path.cells.front(), start);
-      EXPECT_EQ(path.cells.back(), goal);
+      EXPECT_EQ(path.path.front(), start);
+      EXPECT_EQ(path.path.back(), goal);
       std::uint32_t least = DistanceField::far;
-      for (std::size_t i = 0; i < path.cells.size(); ++i) {
-        const auto [x, y] = path.cells[i];
+      for (std::size_t i = 0; i < path.path.size(); ++i) {
+        const auto [x, y] = path.path[i];
         least = std::min(least, field.squared(x, y));
         if (i == 0) continue;
-        const auto [u, v] = path.cells[i - 1];
+        const auto [u, v] = path.path[i - 1];
         const int dx = static_cast<int>(x) - static_cast<int>(u);
         const int dy = static_cast<int>(y) - static_cast<int>(v);
         ASSERT_TRUE(std::abs(dx) <= 1 && std::abs(dy) <= 1 &&
@@ -195,7 +195,7 @@ TEST(SkeletonPlan, GoesRoundTheWideWayForClearanceAndStraightForLength) {
   ASSERT_EQ(wide.outcome, Outcome::solved);
   EXPECT_EQ(near.clearance, 0.5);
   EXPECT_GE(wide.clearance, 1.5);
-  EXPECT_LT(near.cells.size(), wide.cells.size());
+  EXPECT_LT(near.path.size(), wide.path.size());
 }
 
 TEST(SkeletonPlan, DiscsKeepTheirDistanceAndBlockedEndsAreNamed) {

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "core/base/rng.hpp"
-#include "planners/grid/visiting_order.hpp"
 #include "tests/planners/grid/grid_oracle.hpp"
 #include "tests/seeds.hpp"
 

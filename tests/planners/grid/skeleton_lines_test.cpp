@@ -10,7 +10,6 @@
 
 #include "core/base/rng.hpp"
 #include "planners/graph/assemble_graph.hpp"
-#include "planners/graph/components.hpp"
 
 namespace warren {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "planners/lengths/cell_marks.hpp"
+#include "planners/lengths/core_graph.hpp"
 #include "tests/planners/lengths/lattice_mazes.hpp"
 #include "tests/refusals.hpp"
 

@@ -13,7 +13,6 @@
 #include "core/base/error.hpp"
 #include "core/base/rng.hpp"
 #include "core/run/execution.hpp"
-#include "planners/lengths/route_query.hpp"
 #include "tests/planners/lengths/lattice_mazes.hpp"
 #include "tests/refusals.hpp"
 #include "tests/seeds.hpp"

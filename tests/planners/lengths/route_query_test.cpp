@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The oracle is a breadth-first search of the whole lattice.
-#include "planners/lengths/route_query.hpp"
+#include "planners/lengths/route_index.hpp"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@
 #include "core/base/error.hpp"
 #include "core/base/rng.hpp"
 #include "core/base/solution.hpp"
-#include "planners/lengths/route_query.hpp"
+#include "planners/lengths/route_index.hpp"
 #include "planners/mazes/tiled_prm_lattice.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "tests/seeds.hpp"

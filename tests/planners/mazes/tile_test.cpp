@@ -11,7 +11,6 @@
 #include "core/base/rng.hpp"
 #include "core/plane/geometry.hpp"
 #include "planners/mazes/tile_plane.hpp"
-#include "planners/mazes/tile_reduction.hpp"
 #include "planners/mazes/tile_source.hpp"
 #include "spatial/obstacles/wall_index.hpp"
 #include "tests/seeds.hpp"

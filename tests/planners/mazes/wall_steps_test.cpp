@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/mazes/wall_steps.hpp"
+#include "planners/mazes/tile_grid.hpp"
 
 #include <gtest/gtest.h>
 

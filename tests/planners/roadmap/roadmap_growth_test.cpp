@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How many samples worlds that are much longer than broad need, and how far milestones are joined there.
-#include "planners/roadmap/roadmap_growth.hpp"
+#include "planners/roadmap/connection.hpp"
 
 #include <gtest/gtest.h>
 

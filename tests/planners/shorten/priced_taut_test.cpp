@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/shorten/priced_taut.hpp"
+#include "planners/shorten/taut_path.hpp"
 
 #include <gtest/gtest.h>
 

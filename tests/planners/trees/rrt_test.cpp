@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/trees/rrt.hpp"
+#include "planners/trees/rrt_connect.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/plane/geometry.hpp"
-#include "planners/visibility/visibility_path.hpp"
+#include "planners/visibility/visibility_graph.hpp"
 #include "tests/planners/vertical_cells/cell_plans.hpp"
 #include "tests/planners/visibility/degenerate_worlds.hpp"
 

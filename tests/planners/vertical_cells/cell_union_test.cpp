@@ -7,9 +7,9 @@
 #include <numbers>
 #include <vector>
 
+#include "planners/vertical_cells/cell_decomposition.hpp"
 #include "planners/vertical_cells/cell_planner.hpp"
-#include "planners/visibility/noding.hpp"
-#include "planners/visibility/visibility_path.hpp"
+#include "planners/visibility/visibility_graph.hpp"
 #include "tests/planners/visibility/plane_worlds.hpp"
 
 namespace warren {

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "planners/visibility/visibility_path.hpp"
+#include "planners/visibility/visibility_graph.hpp"
 #include "tests/planners/visibility/degenerate_worlds.hpp"
 #include "tests/planners/visibility/disc_oracle.hpp"
 #include "tests/planners/visibility/plane_worlds.hpp"

@@ -11,7 +11,7 @@
 
 #include "core/base/error.hpp"
 #include "planners/vertical_cells/cell_planner.hpp"
-#include "planners/visibility/visibility_path.hpp"
+#include "planners/visibility/visibility_graph.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "tests/planners/visibility/degenerate_worlds.hpp"
 #include "tests/planners/visibility/plane_worlds.hpp"

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "core/base/error.hpp"
-#include "planners/visibility/visibility_path.hpp"
+#include "planners/visibility/visibility_graph.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "tests/planners/visibility/rational_plane.hpp"
 

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <string>
 
-#include "planners/visibility/visibility_path.hpp"
+#include "planners/visibility/visibility_graph.hpp"
 #include "scenes/files/scene_io.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "tests/paths.hpp"

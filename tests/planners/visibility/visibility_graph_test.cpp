@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "planners/visibility/visibility_path.hpp"
 #include "tests/planners/visibility/degenerate_worlds.hpp"
 #include "tests/planners/visibility/plane_worlds.hpp"
 #include "tests/planners/visibility/visibility_oracle.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "spatial/points/tile_order.hpp"
+#include "spatial/points/point_grid.hpp"
 
 #include <gtest/gtest.h>
 

@@ -15,7 +15,7 @@
 
 #include "core/base/rng.hpp"
 #include "core/base/solution.hpp"
-#include "planners/visibility/visibility_path.hpp"
+#include "planners/visibility/visibility_graph.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "tests/seeds.hpp"
 
