@@ -399,14 +399,6 @@ void append_distinct(std::vector<Vec2>& to, const std::vector<Vec2>& corners) {
   while (to.size() > begin + 1 && to.back() == to[begin]) to.pop_back();
 }
 
-/// Asked at the leftmost corner, the lowest of these: a simple outline is convex there.
-bool runs_clockwise(std::span<const Vec2> corners) {
-  const auto before = [](Vec2 p, Vec2 q) { return is_before(p, q); };
-  const auto at = static_cast<std::size_t>(std::min_element(corners.begin(), corners.end(), before) - corners.begin());
-  const std::size_t n = corners.size();
-  return orient2d(corners[(at + n - 1) % n], corners[at], corners[(at + 1) % n]) < 0;
-}
-
 /// Of three corners at least.
 bool has_area(std::span<const Vec2> corners) {
   return std::ranges::any_of(corners.subspan(2), [&](Vec2 p) { return orient2d(corners[0], corners[1], p) != 0; });
