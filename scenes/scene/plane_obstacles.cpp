@@ -462,17 +462,18 @@ std::vector<std::vector<Vec2>> without_holes(const std::vector<Vec2>& outer, std
   return cutter.pieces();
 }
 
-bool add_without_holes(Scene& scene, std::size_t line, std::vector<Vec2> outer,
+void add_without_holes(Scene& scene, std::size_t line, std::vector<Vec2> outer,
                        std::span<const std::vector<Vec2>> holes, const Execution& execution) {
-  if (holes.empty()) {
-    push_asked(scene.polygons, {std::move(outer), line}, execution);
-    return true;
-  }
+  if (holes.empty()) return push_asked(scene.polygons, {std::move(outer), line}, execution);
   std::vector<std::vector<Vec2>> pieces = without_holes(outer, holes, execution);
+  if (pieces.empty()) {
+    throw InputError(fmt::format("{}:{}", scene.source, line),
+                     "a hole must have an area, lie inside its polygon and meet its outline and other holes in single "
+                     "points at most");
+  }
   const std::vector<Segment> seams = shared_sides(pieces);
   scene.seams.insert(scene.seams.end(), seams.begin(), seams.end());
   for (std::vector<Vec2>& piece : pieces) scene.polygons.push_back({std::move(piece), line});
-  return !pieces.empty();
 }
 
 bool stands_on_seam(const Scene& scene, Vec2 p) {
