@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One search for explicit and implicit graphs: A* (Hart, Nilsson, Raphael 1968), which is best_first(), Dijkstra (A*
-// with a zero heuristic), and breadth- and depth-first search. From both ends: bidirectional_search.hpp. Of roadmaps
-// the queue is IndexedHeap<4> unless --queue says otherwise (planners/graph/queue_choice.hpp), the heuristic the
-// straight line or the world's metric (estimated_way() in planners/graph/roadmap_options.hpp); from 50,000 vertices on
-// both ends search (planners/graph/roadmap_search.cpp). Maps take a BucketQueue and heuristics of their own
-// (planners/grid). Loops of their own have cars on grids (ARA*, planners/grid/motion_lattice.hpp), fields of prices,
-// overlays of mazes, polyanya, paths of discs and redrive.
+// with a zero heuristic), and breadth- and depth-first search. From both ends: bidirectional_search.hpp. Which queue
+// and heuristic roadmaps and maps take is said where they search (planners/graph, planners/grid).
 //
 // A graph is any callable neighbours(v, visit) that calls visit(w, length) for each neighbour in ascending order; a
 // lazily checked roadmap tests an edge there, and asks visit.wants(w, length) first, whether an edge of at least this
 // length could help: it never does unless visit.through() + length < visit.labels()[w].
 // Heuristics must be consistent (by others the path may be longer) and lengths non-negative, so that each vertex is
-// settled once. Ties break by vertex
-// number, therefore the path and the counts don't depend on the queue. Time O((V + E) log V); memory 12 bytes a vertex
-// and the queue.
+// settled once. Ties break by vertex number, therefore the path and the counts don't depend on the queue. Time
+// O((V + E) log V); memory 12 bytes a vertex and the queue.
 #pragma once
 
 #include <algorithm>

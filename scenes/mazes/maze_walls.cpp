@@ -2,10 +2,7 @@
 // Walls of a maze from its bits, from walls back to cells, and the flood over cells. For walls, cells are cut into
 // runs of 65536 in storage order (column by column); one pass counts the walls that each run owns, sums give its place
 // in the output, a second pass writes. Unit walls are written without branches through a small buffer that stays in
-// the first cache: about 1.5 ns a wall, bound by the memory written to. The flood is a depth-first walk without a
-// stack: a cell's byte holds the directions still to be tried and the way back. Each direction of each cell is tried
-// once: about 10 ns a cell, and a byte a cell whatever the maze looks like (the frontier of a breadth-first flood has
-// no such bound).
+// the first cache: about 1.5 ns a wall, bound by the memory written to.
 #include <fmt/format.h>
 
 #include <Eigen/Core>

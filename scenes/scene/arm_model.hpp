@@ -15,7 +15,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>

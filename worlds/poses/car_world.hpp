@@ -4,13 +4,10 @@
 // body is a disc around the reference point or a polygon; the turning radius of the reference point is a number of its
 // own.
 //
-// Every motion is certified free all along (worlds/poses/certified_motion.hpp): the curve is halved until, at the
-// middle of each piece, the body is farther from every polygon, wall and bound (BodyAmongObstacles in
-// worlds/poses/obstacle_tree.hpp) than any point of it goes from there to the piece's ends. It is blocked where it
-// touches, and refused, and counted, where pieces reach the resolution. On a map the obstacles are the borders of
-// blocked cells, so that both ends have to be free already. On a straight piece each point of the body goes as far as
-// the reference point, on an arc farther by the ratio of its distance from the turning centre to the turning radius (of
-// a disc, which looks the same however it is turned, the middle alone counts). Without bounds the reference point stays
+// Every motion is certified free all along (worlds/poses/certified_motion.hpp) among the obstacles of
+// BodyAmongObstacles (worlds/poses/obstacle_tree.hpp). On a straight piece each point of the body goes as far as the
+// reference point, on an arc farther by the ratio of its distance from the turning centre to the turning radius (of a
+// disc, which looks the same however it is turned, the middle alone counts). Without bounds the reference point stays
 // in the obstacles' box, on the curve too. The metric is the curve's length; for Dubins curves it has a direction. The
 // chord in (x, y, rho cos theta, rho sin theta), shortened by sqrt(2), never exceeds it. The metric of a differential
 // drive is that of turning bodies, the root of the squares of way and weighed turn, whatever it turns on the way: what
