@@ -7,6 +7,7 @@
 
 #include "core/base/trigonometry.hpp"
 #include "core/plane/geometry.hpp"
+#include "core/plane/polygon.hpp"
 
 namespace warren {
 namespace {
@@ -38,119 +39,68 @@ bool before(Vec2 a, Vec2 b) {
   return orient2d({}, a, b) > 0;
 }
 
-using Ring = std::vector<std::size_t>;  // numbers of corners, counter-clockwise
+using Ring = std::vector<Vec2>;  // counter-clockwise
 
-/// Does the ring run clockwise? Asked at its lowest corner: there it is convex.
-bool runs_clockwise(std::span<const Vec2> p) {
-  const std::size_t low = lowest(p);
-  // Corners on straight sides tell nothing: look for neighbours that turn.
-  for (std::size_t step = 1; step < p.size(); ++step) {
-    const int side = orient2d(p[(low + p.size() - 1) % p.size()], p[low], p[(low + step) % p.size()]);
-    if (side != 0) return side < 0;
+Vec2 at(const Ring& ring, std::size_t i) { return ring[i % ring.size()]; }
+
+void drop_straight_corners(Ring& ring) {
+  for (std::size_t i = 0; i < ring.size() && ring.size() > 3;) {
+    if (orient2d(at(ring, i + ring.size() - 1), ring[i], at(ring, i + 1)) == 0) {
+      ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(i));
+      i = i == 0 ? 0 : i - 1;
+    } else {
+      ++i;
+    }
   }
-  return false;
 }
 
-class Cutter {
- public:
-  explicit Cutter(std::span<const Vec2> polygon) : corners_(polygon.begin(), polygon.end()) {
-    if (runs_clockwise(polygon)) std::reverse(corners_.begin(), corners_.end());
+bool is_convex(const Ring& ring) {
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    if (orient2d(ring[i], at(ring, i + 1), at(ring, i + 2)) <= 0) return false;
   }
+  return true;
+}
 
-  std::vector<std::vector<Vec2>> pieces() {
-    Ring ring(corners_.size());
-    for (std::size_t i = 0; i < ring.size(); ++i) ring[i] = i;
-    drop_straight_corners(ring);
-    if (is_convex(ring)) {
-      rings_.push_back(ring);
-    } else {
-      clip_ears(ring);
-      join_pieces();
-    }
-    std::vector<std::vector<Vec2>> pieces;
-    for (const Ring& r : rings_) {
-      std::vector<Vec2>& piece = pieces.emplace_back();
-      for (const std::size_t i : r) piece.push_back(corners_[i]);
-    }
-    return pieces;
-  }
+bool is_ear(const Ring& ring, std::size_t i) {
+  const Vec2 a = at(ring, i + ring.size() - 1);
+  const Vec2 b = ring[i];
+  const Vec2 c = at(ring, i + 1);
+  if (orient2d(a, b, c) <= 0) return false;
+  return std::none_of(ring.begin(), ring.end(), [&](Vec2 p) {
+    return !(p == a) && !(p == b) && !(p == c) && orient2d(a, b, p) >= 0 && orient2d(b, c, p) >= 0 &&
+           orient2d(c, a, p) >= 0;
+  });
+}
 
- private:
-  int turn(std::size_t a, std::size_t b, std::size_t c) const {
-    return orient2d(corners_[a], corners_[b], corners_[c]);
-  }
-  static std::size_t at(const Ring& ring, std::size_t i) { return ring[i % ring.size()]; }
-
-  void drop_straight_corners(Ring& ring) const {
-    for (std::size_t i = 0; i < ring.size() && ring.size() > 3;) {
-      if (turn(at(ring, i + ring.size() - 1), ring[i], at(ring, i + 1)) == 0) {
-        ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(i));
-        i = i == 0 ? 0 : i - 1;
-      } else {
-        ++i;
-      }
-    }
-  }
-  bool is_convex(const Ring& ring) const {
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      if (turn(ring[i], at(ring, i + 1), at(ring, i + 2)) <= 0) return false;
-    }
-    return true;
-  }
-  bool is_ear(const Ring& ring, std::size_t i) const {
-    const std::size_t a = at(ring, i + ring.size() - 1);
-    const std::size_t b = ring[i];
-    const std::size_t c = at(ring, i + 1);
-    if (turn(a, b, c) <= 0) return false;
-    return std::none_of(ring.begin(), ring.end(), [&](std::size_t p) {
-      if (corners_[p] == corners_[a] || corners_[p] == corners_[b] || corners_[p] == corners_[c]) return false;
-      return turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0;
-    });
-  }
-  void clip_ears(Ring ring) {
-    while (ring.size() > 3) {
-      std::size_t ear = 0;
-      while (ear < ring.size() && !is_ear(ring, ear)) ++ear;
-      if (ear == ring.size()) break;  // not simple: what is left is no polygon
-      rings_.push_back({at(ring, ear + ring.size() - 1), ring[ear], at(ring, ear + 1)});
-      ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(ear));
+/// The two rings as one along their common side, or nothing where they have none or the union isn't convex.
+Ring joined(const Ring& a, const Ring& b) {
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      if (!(a[i] == at(b, j + 1)) || !(at(a, i + 1) == b[j])) continue;
+      Ring ring;
+      for (std::size_t k = 0; k < a.size(); ++k) ring.push_back(at(a, i + 1 + k));
+      for (std::size_t k = 2; k < b.size(); ++k) ring.push_back(at(b, j + k));
       drop_straight_corners(ring);
+      if (is_convex(ring)) return ring;
     }
-    if (turn(ring[0], ring[1], ring[2]) > 0) rings_.push_back(ring);
   }
+  return {};
+}
 
-  /// The two rings as one along their common side, or nothing where they have none or the union isn't convex.
-  Ring joined(const Ring& a, const Ring& b) const {
-    for (std::size_t i = 0; i < a.size(); ++i) {
-      for (std::size_t j = 0; j < b.size(); ++j) {
-        if (a[i] != at(b, j + 1) || at(a, i + 1) != b[j]) continue;
-        Ring ring;
-        for (std::size_t k = 0; k < a.size(); ++k) ring.push_back(at(a, i + 1 + k));
-        for (std::size_t k = 2; k < b.size(); ++k) ring.push_back(at(b, j + k));
-        drop_straight_corners(ring);
-        if (is_convex(ring)) return ring;
+void join_pieces(std::vector<Ring>& rings) {
+  for (std::size_t i = 0; i < rings.size(); ++i) {
+    for (std::size_t j = i + 1; j < rings.size();) {
+      Ring ring = joined(rings[i], rings[j]);
+      if (ring.empty()) {
+        ++j;
+        continue;
       }
-    }
-    return {};
-  }
-  void join_pieces() {
-    for (std::size_t i = 0; i < rings_.size(); ++i) {
-      for (std::size_t j = i + 1; j < rings_.size();) {
-        Ring ring = joined(rings_[i], rings_[j]);
-        if (ring.empty()) {
-          ++j;
-          continue;
-        }
-        rings_[i] = std::move(ring);
-        rings_.erase(rings_.begin() + static_cast<std::ptrdiff_t>(j));
-        j = i + 1;
-      }
+      rings[i] = std::move(ring);
+      rings.erase(rings.begin() + static_cast<std::ptrdiff_t>(j));
+      j = i + 1;
     }
   }
-
-  std::vector<Vec2> corners_;
-  std::vector<Ring> rings_;
-};
+}
 
 }  // namespace
 
@@ -188,6 +138,28 @@ std::vector<Vec2> polygon_around_disc(double radius, std::size_t corners) {
   return polygon;
 }
 
-std::vector<std::vector<Vec2>> convex_pieces(std::span<const Vec2> polygon) { return Cutter(polygon).pieces(); }
+std::vector<std::vector<Vec2>> clip_ears(std::vector<Vec2>& ring, bool drops_straight_corners) {
+  std::vector<Ring> ears;
+  while (ring.size() > 3) {
+    std::size_t ear = 0;
+    while (ear < ring.size() && !is_ear(ring, ear)) ++ear;
+    if (ear == ring.size()) break;
+    ears.push_back({at(ring, ear + ring.size() - 1), ring[ear], at(ring, ear + 1)});
+    ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(ear));
+    if (drops_straight_corners) drop_straight_corners(ring);
+  }
+  return ears;
+}
+
+std::vector<std::vector<Vec2>> convex_pieces(std::span<const Vec2> polygon) {
+  Ring ring(polygon.begin(), polygon.end());
+  if (runs_clockwise(ring)) std::reverse(ring.begin(), ring.end());
+  drop_straight_corners(ring);
+  if (is_convex(ring)) return {ring};
+  std::vector<Ring> pieces = clip_ears(ring, true);
+  if (orient2d(ring[0], ring[1], ring[2]) > 0) pieces.push_back(ring);
+  join_pieces(pieces);
+  return pieces;
+}
 
 }  // namespace warren

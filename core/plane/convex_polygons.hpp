@@ -19,6 +19,10 @@ std::vector<Vec2> minkowski_sum(std::span<const Vec2> a, std::span<const Vec2> b
 /// A regular polygon around the disc of this radius at the origin, whose sides touch it; counter-clockwise.
 std::vector<Vec2> polygon_around_disc(double radius, std::size_t corners);
 
+/// Clips ears, corners whose triangle is inside, off a simple polygon that runs counter-clockwise, and gives their
+/// triangles in that order. What is left has three corners, or no ear: such corners lie in a row.
+std::vector<std::vector<Vec2>> clip_ears(std::vector<Vec2>& ring, bool drops_straight_corners);
+
 /// Ears are clipped (every decision by the exact orientation), then triangles are joined across diagonals wherever the
 /// union stays convex (Hertel, Mehlhorn 1983: at most four times the fewest pieces). A convex polygon stays whole.
 /// O(n^2) time for n corners, more only where few corners are ears. polygon: simple, three or more corners, either

@@ -25,6 +25,20 @@ Place place_of(std::span<const Vec2> polygon, Vec2 p) noexcept {
 
 }  // namespace
 
+/// Asked at the leftmost corner, the lowest of these: there it is convex.
+bool runs_clockwise(std::span<const Vec2> outline) noexcept {
+  const std::size_t n = outline.size();
+  std::size_t at = 0;
+  for (std::size_t i = 1; i < n; ++i) {
+    if (is_before(outline[i], outline[at])) at = i;
+  }
+  std::size_t next = 1;
+  while (next < n && outline[(at + next) % n] == outline[at]) ++next;
+  std::size_t last = 1;
+  while (last < n && outline[(at + n - last) % n] == outline[at]) ++last;
+  return orient2d(outline[(at + n - last) % n], outline[at], outline[(at + next) % n]) < 0;
+}
+
 bool contains(std::span<const Vec2> polygon, Vec2 p) noexcept { return place_of(polygon, p) != Place::outside; }
 
 bool strictly_inside(std::span<const Vec2> polygon, Vec2 p) noexcept { return place_of(polygon, p) == Place::inside; }

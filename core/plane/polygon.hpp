@@ -77,6 +77,9 @@ void for_each_side(std::span<const Vec2> polygon, const Visit& visit) {
   for (std::size_t i = 0; i < polygon.size(); ++i) visit(polygon[i], polygon[i + 1 == polygon.size() ? 0 : i + 1]);
 }
 
+/// Does a simple outline run clockwise? Exact. One corner or more; equal ones in a row count once.
+bool runs_clockwise(std::span<const Vec2> outline) noexcept;
+
 /// Is p in the closed polygon? Exact.
 bool contains(std::span<const Vec2> polygon, Vec2 p) noexcept;
 /// Is p in the polygon and on no side of it? Exact.

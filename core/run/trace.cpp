@@ -2,7 +2,6 @@
 #include "core/run/trace.hpp"
 
 #include <algorithm>
-#include <ctime>
 #include <string_view>
 
 namespace warren {

@@ -72,7 +72,9 @@ int depth_of(const std::string& type) {
 class Reader {
  public:
   Reader(const std::string& file, const std::size_t& line, const Execution& execution)
-      : file_(file), line_(line), execution_(execution), walls_(execution) {}
+      : file_(file), line_(line), execution_(execution), walls_(execution) {
+    scene_.source = file_;
+  }
 
   bool null() { return position_.size() >= 2 || scalar("null"); }  // a height that nobody knows is no height
   bool boolean(bool) { return scalar("true or false"); }
@@ -156,7 +158,6 @@ class Reader {
 
   Scene finish() {
     scene_.walls = walls_.take();
-    scene_.source = file_;
     if (scene_.walls.size() == 0 && scene_.polygons.empty() && !scene_.bounds) {
       throw InputError(file_, "there is no polygon and no line in it; expected GeoJSON with some");
     }
@@ -274,9 +275,7 @@ class Reader {
   void settle_obstacle(Piece& piece) {
     if (piece.kind == Piece::Kind::point) return;  // a mark on a map blocks nothing
     if (piece.kind == Piece::Kind::wall) return walls_.add_chain(piece.points);
-    if (!add_without_holes(scene_, piece.line, std::move(piece.points), piece.holes, execution_)) {
-      fail_at(piece.line, misplaced_hole);
-    }
+    add_without_holes(scene_, piece.line, std::move(piece.points), piece.holes, execution_);
   }
 
   const std::string& file_;

@@ -254,11 +254,7 @@ Cell cell_of(const OccupancyMap& map, const Scenario& scenario, Cell from, const
 Bitmap blocked_from(const OccupancyMap& map, Cell start) {
   if (map.water.empty() || !map.water.test(start.x, start.y)) return map.blocked;
   Bitmap blocked(map.width(), map.height(), true);
-  for (std::uint32_t y = 0; y < map.height(); ++y) {
-    for (std::uint32_t x = 0; x < map.width(); ++x) {
-      if (map.water.test(x, y)) blocked.clear(x, y);
-    }
-  }
+  blocked.remove(map.water);
   return blocked;
 }
 

@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The header is a Python literal, {'descr': '<f4', 'fortran_order': False, 'shape': (28, 4), }, padded so that the
-// numbers begin on a multiple of 64.
-
 #include "scenes/files/npy_io.hpp"
 
 #include <fmt/format.h>
@@ -30,7 +27,7 @@ constexpr std::string_view npy_magic = "\x93NUMPY";
 constexpr std::size_t longest_header = 65535;  // all that version 1 can say, and a hundred times what walls need
 constexpr std::size_t npy_grain = std::size_t{1} << 16;
 
-/// Reads the header's dictionary.
+/// Reads the header's dictionary, {'descr': '<f4', 'fortran_order': False, 'shape': (28, 4), }.
 class HeaderParser {
  public:
   explicit HeaderParser(const InputFile& file) : name_(file.name()), bytes_(file.bytes()) {}

@@ -106,8 +106,7 @@ void check_pixels_are_there(const InputFile& file, const ImageHeader& header, st
                                     std::to_string(header.height) + " pixels");
 }
 
-/// libpng reports by longjmp, so nothing that needs a destructor may live between setjmp and the calls; an exception of
-/// `write` is kept and rethrown after.
+/// An exception of `write` is kept and rethrown after.
 struct PngSink {
   const std::function<void(std::string_view)>& write;
   std::exception_ptr error;

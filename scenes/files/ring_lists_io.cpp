@@ -14,7 +14,6 @@
 #include <cmath>
 #include <optional>
 #include <span>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -188,12 +187,6 @@ std::size_t parent_of(const PolygonIndex& rings, std::size_t ring, std::span<con
   return parent;
 }
 
-void add_blocked(Scene& scene, const ScenePolygon& ring, std::span<const std::vector<Vec2>> holes,
-                 const Execution& execution) {
-  if (add_without_holes(scene, ring.line, ring.corners, holes, execution)) return;
-  throw InputError(fmt::format("{}:{}", scene.source, ring.line), std::string(misplaced_hole));
-}
-
 /// The outermost rings confine: one alone, or else what is around them is an obstacle with these as its holes.
 void confine_to(Scene& scene, std::span<const ScenePolygon> outermost, const Execution& execution) {
   if (outermost.size() == 1) return confine(scene, outermost.front(), execution);
@@ -205,7 +198,7 @@ void confine_to(Scene& scene, std::span<const ScenePolygon> outermost, const Exe
   }
   box = box.grown(std::max(box.width(), box.height()) / 64.0);
   const auto around = box.corners();
-  add_blocked(scene, {{around.begin(), around.end()}, outermost.front().line}, holes, execution);
+  add_without_holes(scene, outermost.front().line, {around.begin(), around.end()}, holes, execution);
 }
 
 /// Free is inside an odd number of rings.
@@ -226,7 +219,7 @@ void sort_by_depth(Scene& scene, const Execution& execution) {
   Rings outermost;
   for (std::size_t i = 0; i < rings.size(); ++i) {
     if (depth[i] == 0) push_asked(outermost, rings[i], execution);
-    if (depth[i] % 2 == 1) add_blocked(scene, rings[i], holes[i], execution);
+    if (depth[i] % 2 == 1) add_without_holes(scene, rings[i].line, rings[i].corners, holes[i], execution);
   }
   confine_to(scene, outermost, execution);
 }

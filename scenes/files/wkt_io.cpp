@@ -127,7 +127,9 @@ class Tokens {
 class WktReader {
  public:
   WktReader(const InputFile& file, const Execution& execution)
-      : name_(file.name()), execution_(execution), tokens_(file.name(), file.bytes(), execution), walls_(execution) {}
+      : name_(file.name()), execution_(execution), tokens_(file.name(), file.bytes(), execution), walls_(execution) {
+    scene_.source = name_;
+  }
 
   Scene read() {
     while (!tokens_.done()) {
@@ -136,7 +138,6 @@ class WktReader {
       geometry(0);
     }
     scene_.walls = walls_.take();
-    scene_.source = name_;
     if (scene_.walls.size() == 0 && scene_.polygons.empty()) {
       throw InputError(name_, "there is no polygon and no line in it; expected WKT with some");
     }
@@ -208,7 +209,7 @@ class WktReader {
   }
   void line() {
     const ScenePolygon read = chain();
-    if (read.corners.size() == 1) fail_at(read.line, "a LINESTRING needs two positions or more");
+    if (read.corners.size() == 1) place(read.line).fail("a LINESTRING needs two positions or more");
     walls_.add_chain(read.corners);
   }
   /// The first ring; the others are its holes.
@@ -221,8 +222,8 @@ class WktReader {
       if (ring.corners.empty()) return;
       const bool closed = ring.corners.front() == ring.corners.back();
       if (ring.corners.size() < 4 || !closed) {
-        fail_at(ring.line, "a ring needs four positions or more, the last one equal to the first",
-                closed ? fmt::format("{} positions", ring.corners.size()) : "an open ring");
+        place(ring.line).fail("a ring needs four positions or more, the last one equal to the first",
+                              closed ? fmt::format("{} positions", ring.corners.size()) : "an open ring");
       }
       ring.corners.pop_back();
       if (outline.corners.empty()) {
@@ -232,13 +233,9 @@ class WktReader {
       }
     });
     if (outline.corners.empty()) return;
-    if (!add_without_holes(scene_, outline.line, std::move(outline.corners), holes, execution_)) {
-      fail_at(outline.line, misplaced_hole);
-    }
+    add_without_holes(scene_, outline.line, std::move(outline.corners), holes, execution_);
   }
-  [[noreturn]] void fail_at(std::size_t line, std::string_view what, std::string_view found = {}) const {
-    scene_text::Place{name_, line}.fail(what, found);
-  }
+  scene_text::Place place(std::size_t line) const { return {name_, line}; }
 
   const std::string& name_;
   const Execution& execution_;

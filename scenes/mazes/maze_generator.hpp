@@ -106,7 +106,8 @@ WallSet maze_walls(const MazeCells& cells, bool merged, const Execution& executi
 /// Bytes of a wall that maze_walls() makes for so many rows and columns.
 std::size_t maze_wall_bytes(std::uint32_t rows, std::uint32_t cols);
 
-/// Are these, to the bit, the walls that maze_walls() makes of the cells, not merged? Makes none.
+/// Are these, to the bit, the walls that maze_walls() makes of the cells, not merged? Makes no more
+/// than some thousand of them at once.
 bool has_maze_walls(const WallSet& walls, const MazeCells& cells, const Execution& execution);
 
 /// The walls of a maze that nobody holds, in the order of maze_walls(), which is column by column: tiles are made for

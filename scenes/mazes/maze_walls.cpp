@@ -2,10 +2,7 @@
 // Walls of a maze from its bits, from walls back to cells, and the flood over cells. For walls, cells are cut into
 // runs of 65536 in storage order (column by column); one pass counts the walls that each run owns, sums give its place
 // in the output, a second pass writes. Unit walls are written without branches through a small buffer that stays in
-// the first cache: about 1.5 ns a wall, bound by the memory written to. The flood is a depth-first walk without a
-// stack: a cell's byte holds the directions still to be tried and the way back. Each direction of each cell is tried
-// once: about 10 ns a cell, and a byte a cell whatever the maze looks like (the frontier of a breadth-first flood has
-// no such bound).
+// the first cache: about 1.5 ns a wall, bound by the memory written to.
 #include <fmt/format.h>
 
 #include <Eigen/Core>
@@ -157,8 +154,8 @@ class WallWriter : NotCopied {
   std::size_t used_ = 0;
 };
 
-template <class Wall, class Writer>
-void write_units(const WallStarts& starts, const Run& run, Writer& writer) {
+template <class Wall>
+void write_units(const WallStarts& starts, const Run& run, WallWriter<Wall>& writer) {
   const MazeCells& cells = starts.cells();
   const std::uint8_t* bytes = cells.bytes().data() + cells.index(run.col, 0);
   const unsigned interior = starts.interior_of(run.col);
@@ -207,15 +204,21 @@ std::vector<std::size_t> places_of(const WallStarts& starts, Range some, std::si
   return places;
 }
 
-/// Writes the walls of these cells, whose chunks' places places_of() has told.
+/// Writes the walls that start at these cells.
+template <class Wall>
+void write_chunk(const WallStarts& starts, Range cells, Wall* walls) {
+  WallWriter<Wall> writer(walls);
+  for_runs(starts.cells(), cells, [&](const Run& run) {
+    starts.merged() ? write_merged<Wall>(starts, run, writer) : write_units<Wall>(starts, run, writer);
+  });
+}
+
+/// The same of cells whose chunks' places places_of() has told.
 template <class Wall>
 void write_walls(const WallStarts& starts, Range some, std::span<const std::size_t> places, Wall* walls,
                  const Execution& execution) {
   for_chunks(some.size(), wall_grain, execution, [&](Range r) {
-    WallWriter<Wall> writer(walls + places[r.first / wall_grain]);
-    for_runs(starts.cells(), {some.first + r.first, some.first + r.last}, [&](const Run& run) {
-      starts.merged() ? write_merged<Wall>(starts, run, writer) : write_units<Wall>(starts, run, writer);
-    });
+    write_chunk(starts, {some.first + r.first, some.first + r.last}, walls + places[r.first / wall_grain]);
   });
 }
 
@@ -229,24 +232,6 @@ auto with_wall_type(std::uint32_t rows, std::uint32_t cols, const F& f) {
   return side <= largest_float_side ? f(FloatWall()) : f(DoubleWall());
 }
 
-/// Takes the walls of one chunk as WallWriter does, and looks whether those that stand are they.
-template <class Wall>
-class WallComparer {
- public:
-  explicit WallComparer(const Wall* walls) : at_(walls) {}
-  void make_room() const {}
-  void add(const Wall& wall, unsigned keep) {
-    if (keep == 0) return;
-    same_ = same_ && *at_ == wall;
-    ++at_;
-  }
-  bool same() const { return same_; }
-
- private:
-  const Wall* at_;
-  bool same_ = true;
-};
-
 template <class Wall>
 bool has_walls_as(std::span<const Wall> walls, const MazeCells& cells, const Execution& execution) {
   const WallStarts starts(cells, false);
@@ -254,9 +239,11 @@ bool has_walls_as(std::span<const Wall> walls, const MazeCells& cells, const Exe
   const std::array<Wall, 4> frame = outline<Wall>(cells.rows(), cells.cols());
   if (walls.size() != places.back() || !std::equal(frame.begin(), frame.end(), walls.begin())) return false;
   const std::size_t first_other = first_in_chunks(cells.cell_count(), wall_grain, execution, [&](Range r) {
-    WallComparer<Wall> comparer(walls.data() + places[r.first / wall_grain]);
-    for_runs(cells, r, [&](const Run& run) { write_units<Wall>(starts, run, comparer); });
-    return comparer.same() ? r.last : r.first;
+    const std::size_t* const place = &places[r.first / wall_grain];
+    const auto held = walls.subspan(place[0], place[1] - place[0]);
+    RawVector<Wall> made(held.size());
+    write_chunk(starts, r, made.data());
+    return std::equal(made.begin(), made.end(), held.begin()) ? r.last : r.first;
   });
   return first_other == cells.cell_count();
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Solids of space, and an arm as plain data: joints in a tree, links with their solids, which links may not touch each
 // other. What planners and judges of arms have in common; read from a URDF (scenes/arms/urdf_io.cpp) or made of a
-// Denavit-Hartenberg table (worlds/arms/chain_model.cpp).
+// Denavit-Hartenberg table (worlds/arms/serial_chain.hpp).
 //
 // Where a joint's frame is: frame(joint) = frame(parent) * origin * motion(axis, value), with value = multiplier *
 // q[variable] + offset; a revolute joint turns by `value` about its axis, a prismatic one slides by it along the axis.
@@ -15,7 +15,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>

@@ -399,14 +399,6 @@ void append_distinct(std::vector<Vec2>& to, const std::vector<Vec2>& corners) {
   while (to.size() > begin + 1 && to.back() == to[begin]) to.pop_back();
 }
 
-/// Asked at the leftmost corner, the lowest of these: a simple outline is convex there.
-bool runs_clockwise(std::span<const Vec2> corners) {
-  const auto before = [](Vec2 p, Vec2 q) { return is_before(p, q); };
-  const auto at = static_cast<std::size_t>(std::min_element(corners.begin(), corners.end(), before) - corners.begin());
-  const std::size_t n = corners.size();
-  return orient2d(corners[(at + n - 1) % n], corners[at], corners[(at + 1) % n]) < 0;
-}
-
 /// Of three corners at least.
 bool has_area(std::span<const Vec2> corners) {
   return std::ranges::any_of(corners.subspan(2), [&](Vec2 p) { return orient2d(corners[0], corners[1], p) != 0; });
@@ -470,17 +462,18 @@ std::vector<std::vector<Vec2>> without_holes(const std::vector<Vec2>& outer, std
   return cutter.pieces();
 }
 
-bool add_without_holes(Scene& scene, std::size_t line, std::vector<Vec2> outer,
+void add_without_holes(Scene& scene, std::size_t line, std::vector<Vec2> outer,
                        std::span<const std::vector<Vec2>> holes, const Execution& execution) {
-  if (holes.empty()) {
-    push_asked(scene.polygons, {std::move(outer), line}, execution);
-    return true;
-  }
+  if (holes.empty()) return push_asked(scene.polygons, {std::move(outer), line}, execution);
   std::vector<std::vector<Vec2>> pieces = without_holes(outer, holes, execution);
+  if (pieces.empty()) {
+    throw InputError(fmt::format("{}:{}", scene.source, line),
+                     "a hole must have an area, lie inside its polygon and meet its outline and other holes in single "
+                     "points at most");
+  }
   const std::vector<Segment> seams = shared_sides(pieces);
   scene.seams.insert(scene.seams.end(), seams.begin(), seams.end());
   for (std::vector<Vec2>& piece : pieces) scene.polygons.push_back({std::move(piece), line});
-  return !pieces.empty();
 }
 
 bool stands_on_seam(const Scene& scene, Vec2 p) {

@@ -19,7 +19,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/base/types.hpp"
@@ -29,10 +28,6 @@
 
 namespace warren {
 
-/// What is wrong where without_holes() gives nothing.
-inline constexpr std::string_view misplaced_hole =
-    "a hole must have an area, lie inside its polygon and meet its outline and other holes in single points at most";
-
 /// outer, holes: rings of either orientation, not closed. The pieces run anticlockwise. Empty where the rings can't be
 /// those of a polygon with holes: a hole without area, outside of the polygon, or one that crosses another ring or
 /// shares more than a point with it. A ring that meets itself is handed back alone, as the one piece: whoever takes it
@@ -41,8 +36,9 @@ std::vector<std::vector<Vec2>> without_holes(const std::vector<Vec2>& outer, std
                                              const Execution& execution);
 
 /// Adds the pieces as polygons of that line, the outer ring as it is where there are no holes, and the cuts between
-/// them as seams. False: the rings can't be those of a polygon with holes, and nothing is added.
-bool add_without_holes(Scene& scene, std::size_t line, std::vector<Vec2> outer,
+/// them as seams. Throws InputError naming the scene's source and the line where the rings can't be those of a polygon
+/// with holes, Stopped.
+void add_without_holes(Scene& scene, std::size_t line, std::vector<Vec2> outer,
                        std::span<const std::vector<Vec2>> holes, const Execution& execution);
 
 /// Is the point on a seam, between its ends? Then it is strictly inside of the polygon that was cut there.

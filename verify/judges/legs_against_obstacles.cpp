@@ -2,8 +2,7 @@
 // Obstacles against the legs of a path: by a pass over all of them, or by an index of those that are asked about again
 // and again. Both are one loop. Segments in their order (obstacles in the one case, legs in the other) meet many that
 // lie in blocks of boxes (verify/near/leg_boxes, verify/near/obstacle_index); blocks are left out that lie farther away
-// than the least distance so far, by their boxes and by the segment's line. Segments that follow each other are near
-// each other: the blocks near 64 of them are looked for once, and each eight choose among those, unless they are many.
+// than the least distance so far, by their boxes and by the segment's line (AgainstBlocks).
 //
 // The pass drops most obstacles before that by a screen (verify/near/path_screen), whose cells are as wide as what some
 // obstacles say of the least distance. By the index the first leg begins with some sides near it.

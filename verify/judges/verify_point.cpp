@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 
 #include "core/base/error.hpp"
+#include "core/base/whole.hpp"
 #include "parallel/chunks.hpp"
 #include "verify/exact/exact_segments.hpp"
 #include "verify/judges/judged_input.hpp"
@@ -69,6 +71,128 @@ Verification judged_legs(const Scene& scene, const ObstacleIndex* index, std::sp
   return result;
 }
 
+// Is this path free on a map? Each leg is compared with the closed square of every blocked cell near it, in cells; what
+// lies outside of the map is blocked. Independent of what found it: nothing from spatial/ or planners/, orientations
+// and distances by verify/exact/exact_segments, borders as the cells say and not as walls.
+//
+// All lengths are in cells until they are reported. A window of cells around a leg grows until it holds a blocked one
+// or reaches as far as the least distance met so far, so a path far from everything is not compared with everything.
+
+/// Is this cell closed to the robot?
+class Closed {
+ public:
+  Closed(const OccupancyMap& map, bool on_water) : map_(map), on_water_(on_water) {}
+  bool operator()(std::int64_t x, std::int64_t y) const {
+    if (x < 0 || y < 0 || x >= map_.width() || y >= map_.height()) return true;
+    return on_water_ ? !map_.water.holds(x, y) : map_.blocked.holds(x, y);
+  }
+  /// Of the map's cells.
+  Box box() const { return {{}, {static_cast<double>(map_.width()), static_cast<double>(map_.height())}}; }
+
+ private:
+  const OccupancyMap& map_;
+  bool on_water_;
+};
+
+/// A leg in cells, and the distance that it has to keep.
+struct JudgedLeg {
+  Segment segment;
+  double needed;
+
+  /// From a cell's closed square: on the right side of what is needed, whatever the rounding of the distance.
+  double distance_to_cell(Vec2 low) const {
+    const Box square{low, low + Vec2{1.0, 1.0}};
+    if (square.contains(segment.a) || square.contains(segment.b)) return 0.0;
+    const std::array<Vec2, 4> corners = square.corners();
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t side = 0; side < 4; ++side) {
+      least = std::min(least, distance_to(exact::outline_side(corners, side)));
+    }
+    return least;
+  }
+
+ private:
+  double distance_to(const Segment& side) const {
+    const double d = exact::distance(segment, side);
+    if (needed == 0.0 || !(std::abs(d - needed) <= 2.0 * exact::distance_error * needed)) return d;
+    return exact::closer_than(segment, side, needed) ? std::min(d, std::nextafter(needed, 0.0)) : std::max(d, needed);
+  }
+};
+
+struct Nearest {
+  double distance = std::numeric_limits<double>::infinity();
+  double x = 0.0;  // of a cell, which may be anywhere outside
+  double y = 0.0;
+};
+
+/// The nearest closed cell of those within `reach` of the piece; nothing beyond `reach` is promised.
+Nearest nearest_within(const Closed& closed, const JudgedLeg& leg, const Segment& piece, double reach,
+                       const Execution& execution) {
+  constexpr std::uint64_t cells_a_poll = 1 << 16;
+  const Box box = box_of(piece).grown(reach);
+  const auto whole = [](double x, double most) { return bounded_whole<std::int64_t>(std::floor(x), -1.0, most); };
+  const std::int64_t last_x = whole(box.max.x, closed.box().max.x);
+  const std::int64_t last_y = whole(box.max.y, closed.box().max.y);
+  std::uint64_t asked = 0;
+  Nearest nearest;
+  for (std::int64_t y = whole(box.min.y, closed.box().max.y); y <= last_y; ++y) {
+    for (std::int64_t x = whole(box.min.x, closed.box().max.x); x <= last_x; ++x) {
+      if (++asked % cells_a_poll == 0) execution.check();
+      if (!closed(x, y)) continue;
+      const Vec2 low{static_cast<double>(x), static_cast<double>(y)};
+      const double distance = leg.distance_to_cell(low);
+      if (distance < nearest.distance) nearest = {distance, low.x, low.y};
+    }
+  }
+  return nearest;
+}
+
+/// Long legs in pieces of a few cells, so that a leg across the map is not compared with its whole box. A leg with an
+/// end outside of the map is settled at once: so the numbers of pieces and cells are bounded by the map's.
+Nearest nearest_to(const Closed& closed, const JudgedLeg& leg, double enough, const Execution& execution) {
+  constexpr double piece_cells = 16.0;
+  const Vec2 a = leg.segment.a;
+  const Vec2 b = leg.segment.b;
+  for (const Vec2 end : {a, b}) {
+    if (!closed.box().contains(end)) return {0.0, std::floor(end.x) + 0.0, std::floor(end.y) + 0.0};  // no -0
+  }
+  const double pieces = std::max(std::ceil(distance(a, b) / piece_cells), 1.0);
+  const double rounding = pieces > 1.0 ? 1e-6 : 0.0;  // of a piece's ends
+  Nearest nearest;
+  nearest.distance = std::max(enough, leg.needed);  // what is farther matters neither to this leg nor to the least
+  for (double p = 0.0; p < pieces; ++p) {
+    execution.check();
+    const auto at = [&](double i) { return i == pieces ? b : a + (i / pieces) * (b - a); };
+    const Segment piece{at(p), at(p + 1.0)};
+    for (double reach = 1.0;; reach *= 2.0) {
+      const double window = std::min(reach, nearest.distance);
+      const Nearest found = nearest_within(closed, leg, piece, window + rounding, execution);
+      if (found.distance < nearest.distance) nearest = found;
+      if (window >= nearest.distance || found.distance <= window) break;
+    }
+  }
+  return nearest;
+}
+
+/// By how much the point's place in cells may be off, in cells: by nothing where neither difference nor quotient was
+/// rounded, as on maps that are not turned, with their origin at 0 and cells of 1.
+double rounding_at(const OccupancyMap& map, Vec2 p) {
+  const auto is_exact = [&](double x, double origin) {
+    const double from = x - origin;
+    const double back = from - x;
+    const double lost = (x - (from - back)) - (origin + back);
+    return lost == 0.0 && std::fma(from / map.cell, map.cell, -from) == 0.0;
+  };
+  if (map.yaw_rad == 0.0 && is_exact(p.x, map.origin.x) && is_exact(p.y, map.origin.y)) return 0.0;
+  return 4e-15 * (norm(p) + norm(map.origin)) / map.cell;
+}
+
+/// Less than what is asked for by what rounding may take, and no more.
+JudgedLeg judged_leg(const OccupancyMap& map, const Segment& leg, double reach) {
+  const double rounding = rounding_at(map, leg.a) + rounding_at(map, leg.b);
+  return {{map_point(map, leg.a), map_point(map, leg.b)}, std::max(reach / map.cell - rounding, 0.0)};
+}
+
 }  // namespace
 
 void check_judged_path(std::span<const Vec2> path, const VerifyOptions& options, const Execution& execution) {
@@ -105,6 +229,36 @@ Verification verify_path(const Scene& scene, std::span<const Vec2> path, const V
   Verification verdict = judged_legs(scene, index, legs, options, execution);
   verdict.min_clearance -= options.radius;
   return verdict;
+}
+
+Verification verify_on_map(const OccupancyMap& map, std::span<const Vec2> path, const VerifyOptions& options,
+                           const Execution& execution) {
+  check_judged_path(path, options, execution);
+  if (options.contact == Contact::allowed) {
+    throw InputError("contact", "can't be allowed on a map: a blocked cell is a closed square");
+  }
+  const auto first_cell = cell_at(map, path.front());
+  const Closed closed(map, first_cell && map.water.holds(first_cell->x, first_cell->y));
+  const auto leg_at = [&](std::size_t i) { return Segment{path[i], path[std::min(i + 1, path.size() - 1)]}; };
+  constexpr std::size_t legs_a_chunk = 256;
+  LegReport legs = report_legs(legs_of(path.size()), legs_a_chunk, execution, [&](Range r) {
+    LegReport report;
+    for (std::size_t i = r.first; i < r.last; ++i) {
+      const JudgedLeg leg = judged_leg(map, leg_at(i), options.reach());
+      const Nearest nearest = nearest_to(closed, leg, report.least, execution);
+      report.least = std::min(report.least, nearest.distance);
+      const bool is_free = nearest.distance > 0.0 && nearest.distance >= leg.needed;
+      if (is_free || report.violation) continue;
+      report.violation = Violation{i, nearest.distance * map.cell, fmt::format("cell {}, {}", nearest.x, nearest.y)};
+    }
+    return report;
+  });
+  legs.least *= map.cell;
+  Verification result = verdict_on(legs, wrong_ends(path, options, legs_of(path.size())));
+  result.min_clearance -= options.radius;
+  if (result.verified) result.min_clearance = std::max(result.min_clearance, 0.0);  // but for rounding
+  for (std::size_t i = 0; i < legs_of(path.size()); ++i) result.length += distance(leg_at(i).a, leg_at(i).b);
+  return result;
 }
 
 }  // namespace warren

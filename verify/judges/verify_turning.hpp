@@ -12,7 +12,6 @@
 
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "core/plane/se2.hpp"
 #include "core/run/execution.hpp"
@@ -44,14 +43,11 @@ Verification verify_se2(const Scene& scene, std::span<const Vec2> outline, std::
                         const PoseVerifyOptions& options, const Execution& execution,
                         const ObstacleIndex* index = nullptr);
 
-/// The car among the scene's walls, polygons and bounds; on a map among its cells, whose borders are read from the
-/// bits. Where it turns on the spot it may turn as tightly as it likes, and its turning radius, > 0, is a scale of
-/// lengths. Throws InputError for scenes that hold anything else, or nothing (verify/judges/judged_input). Legs turn by
-/// half a turn at most; where a car that reverses could drive half a turn either way, both must be free. Poses may be
-/// off by some 1e-9 turning radii. The path has at least one pose, all finite (InputError otherwise); a single pose is
-/// a leg of length zero. min_clearance is around the body: a lower bound, sharp up to rounding; where the path is not
-/// free, the least met. The same for any number of threads, with an index of this scene and without; it is for scenes
-/// that are no maps.
+/// The same of a car: scenes, paths, errors, threads and index as of verify_se2(). Where it turns on the spot it may
+/// turn as tightly as it likes, and its turning radius, > 0, is a scale of lengths. Legs turn by half a turn at most;
+/// where a car that reverses could drive half a turn either way, both must be free. Poses may be off by some 1e-9
+/// turning radii. min_clearance is around the body: a lower bound, sharp up to rounding; where the path is not free,
+/// the least met.
 Verification verify_car(const Scene& scene, const RobotSpec& car, std::span<const Se2> path,
                         const PoseVerifyOptions& options, const Execution& execution,
                         const ObstacleIndex* index = nullptr);

@@ -10,51 +10,21 @@
 
 #include "core/base/trigonometry.hpp"
 #include "core/base/whole.hpp"
+#include "core/plane/convex_polygons.hpp"
 #include "core/plane/geometry.hpp"
+#include "core/plane/polygon.hpp"
 #include "core/plane/se2.hpp"
 
 namespace warren {
 namespace {
 
-double area(std::span<const Vec2> outline) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < outline.size(); ++i) sum += cross(outline[i], outline[(i + 1) % outline.size()]);
-  return sum;
-}
-
-bool is_convex(std::span<const Vec2> outline) {
+/// Or straight ones.
+bool has_left_turns_only(std::span<const Vec2> outline) {
   for (std::size_t i = 0; i < outline.size(); ++i) {
     const Vec2 b = outline[(i + 1) % outline.size()];
     if (orient2d(outline[i], b, outline[(i + 2) % outline.size()]) < 0) return false;
   }
   return true;
-}
-
-/// Is corner i an ear: does it turn left, and holds its triangle no other corner?
-bool is_ear(const std::vector<Vec2>& ring, std::size_t i) {
-  const std::size_t n = ring.size();
-  const Vec2 a = ring[(i + n - 1) % n];
-  const Vec2 b = ring[i];
-  const Vec2 c = ring[(i + 1) % n];
-  if (orient2d(a, b, c) <= 0) return false;
-  return std::none_of(ring.begin(), ring.end(), [&](Vec2 p) {
-    return !(p == a) && !(p == b) && !(p == c) && orient2d(a, b, p) >= 0 && orient2d(b, c, p) >= 0 &&
-           orient2d(c, a, p) >= 0;
-  });
-}
-
-std::vector<ConvexPiece> triangles_of(std::vector<Vec2> ring) {
-  std::vector<ConvexPiece> triangles;
-  while (ring.size() > 3) {
-    const std::size_t n = ring.size();
-    std::size_t ear = 0;
-    while (ear < n && !is_ear(ring, ear)) ++ear;
-    if (ear == n) break;  // corners in a row only: what is left has no inside of its own
-    triangles.push_back(convex_hull({ring[(ear + n - 1) % n], ring[ear], ring[(ear + 1) % n]}));
-    ring.erase(ring.begin() + as_whole<std::ptrdiff_t>(ear));
-  }
-  triangles.push_back(convex_hull(ring));
-  return triangles;
 }
 
 /// The arc that p runs through, within its tangents: both ends and the corners between, `parts` of them.
@@ -185,9 +155,12 @@ ConvexPiece convex_hull(std::vector<Vec2> points) {
 
 std::vector<ConvexPiece> outline_pieces(std::span<const Vec2> outline) {
   std::vector<Vec2> ring(outline.begin(), outline.end());
-  if (area(ring) < 0.0) std::reverse(ring.begin(), ring.end());
-  if (ring.size() < 4 || is_convex(ring)) return {convex_hull(std::move(ring))};
-  return triangles_of(std::move(ring));
+  if (runs_clockwise(ring)) std::reverse(ring.begin(), ring.end());
+  if (ring.size() < 4 || has_left_turns_only(ring)) return {convex_hull(std::move(ring))};
+  std::vector<ConvexPiece> pieces;
+  for (std::vector<Vec2>& ear : clip_ears(ring, false)) pieces.push_back(convex_hull(std::move(ear)));
+  pieces.push_back(convex_hull(std::move(ring)));
+  return pieces;
 }
 
 ConvexPiece swept_by_step(const ConvexPiece& piece, Vec2 step) {
