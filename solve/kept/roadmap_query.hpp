@@ -20,7 +20,7 @@
 
 namespace warren {
 
-class ObstacleIndex;  // verify/near/obstacle_index.hpp
+struct PointJudge;  // solve/kinds/solve_steps.hpp
 
 /// What a question may say beside its ends: all else is the roadmap's.
 struct RoadmapSearchFields {
@@ -101,9 +101,9 @@ class RoadmapQuery : NotCopied {
                      QuestionScratch& scratch) const;
   /// nullptr where the walls can't be looked up.
   const KeptCells* cells_of_lattice(const Execution& execution) const;
-  /// nullptr where a pass over all obstacles does.
-  const ObstacleIndex* judge_of_lattice(const Execution& execution) const;
-  /// The judge's part of ask_lattice(), by one of the three.
+  /// By walls that are looked up, by an index, or by a pass over all obstacles.
+  PointJudge judge_of_lattice(const WallProblem& problem, const Execution& execution) const;
+  /// The judge's part of ask_lattice().
   void settle_and_verify(Answer& answer, const WallProblem& problem, bool optimise, const Execution& execution,
                          const QuestionScratch& scratch) const;
   const Roadmap& roadmap_;

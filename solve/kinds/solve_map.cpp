@@ -31,38 +31,6 @@
 namespace warren {
 namespace {
 
-/// What is said of the ends where one is called blocked (solve/kinds/solve_steps.hpp): by the verification.
-Outcome settled_on_map(Outcome outcome, const OccupancyMap& map, const WallProblem& problem,
-                       const Execution& execution) {
-  const auto is_free = [&](Vec2 p) { return cell_at(map, p) && stands_free_on_map(map, problem, p, execution); };
-  return settled_ends(
-      outcome, [&] { return is_free(problem.start); },
-      [&] {
-        const bool stays_on_water = starts_on_water(map, problem.start) && cell_at(map, problem.goal);
-        return stays_on_water || is_free(problem.goal);
-      });
-}
-
-/// Verifies a solved answer and fills in length and clearance. A path that fails is a bug, std::logic_error; but for
-/// paths over_cells of a disc, which may fail on the way between an end and the middle of its cell: not_connected.
-void verify_solved_on_map(Answer& answer, const OccupancyMap& map, const WallProblem& problem, bool over_cells,
-                          const Execution& execution) {
-  if (answer.outcome != Outcome::solved) return;
-  const StageTimer timer(execution, "verify", answer.seconds.verify, answer.path.size());
-  const Verification verification = verify_on_map(map, answer.path, verify_options(problem), execution);
-  if (!verification.verified) {
-    const Violation violation = verification.first_violation.value_or(Violation{});
-    const bool at_an_end = violation.leg == 0 || violation.leg + 2 == answer.path.size();
-    // What only rounding keeps off a cell that it touches is blocked.
-    answer.outcome = settled_on_map(Outcome::start_blocked, map, problem, execution);
-    const bool may_miss = over_cells && problem.reach() > 0.0 && at_an_end;
-    if (answer.outcome == Outcome::not_connected && !may_miss) fail_verification(answer, violation);
-    answer.path.clear();
-    return;
-  }
-  take_verdict(answer, verification);
-}
-
 /// A path cut where it first comes as near to a place.
 Path<Vec2> cut_at_region(Path<Vec2> path, Vec2 place, double radius) {
   if (distance(path.front(), place) <= radius) return {path.front()};
@@ -177,7 +145,7 @@ class CellSolve {
 
  private:
   void run_to_goal() {
-    answer_.outcome = settled_on_map(Outcome::start_blocked, map_, problem_, request_.execution);
+    answer_.outcome = judge_of(request_, problem_).settled(Outcome::start_blocked);
     if (answer_.outcome != Outcome::not_connected) return;
     index();
     choose_method();
@@ -190,7 +158,7 @@ class CellSolve {
         return prove_apart(answer_, map_, closed_, problem_, {problem_.goal}, request_.execution);
     }
     if (wants_taut()) optimise();
-    verify_solved_on_map(answer_, map_, problem_, true, request_.execution);
+    judge_of(request_, problem_).verify_solved(answer_, true);
   }
   /// Where the question asks for other ways than the cheapest.
   void add_alternatives() {
@@ -207,7 +175,7 @@ class CellSolve {
 
   /// Where there is more to decide than the way to one place.
   void run_chosen() {
-    if (!stands_free_on_map(map_, problem_, problem_.start, request_.execution)) {
+    if (!judge_of(request_, problem_).stands_free(problem_.start)) {
       answer_.outcome = Outcome::start_blocked;
       return;
     }
@@ -226,7 +194,7 @@ class CellSolve {
       answer_.goal_reached->distance = distance(reached.goal, Vec2{asked[0], asked[1]});
       answer_.problem.goal = {reached.goal.x, reached.goal.y};
     }
-    verify_solved_on_map(answer_, map_, reached, true, request_.execution);
+    judge_of(request_, reached).verify_solved(answer_, true);
     if (!prices_ || !answer_.verified) return;
     answer_.lower_bound =
         bound_of_choice(problem_.start, problem_.goal, problem_.rule, has_open_end(request_), off_goal(answer_));
@@ -407,9 +375,9 @@ class BodyOnMap : public UsualBody<WallProblem> {
   bool provably_apart(const World& world, const std::vector<Vec2>&) const {
     return warren::provably_apart(world.map(), world.map().blocked, problem_, execution_);
   }
-  bool start_stands_free() const { return stands_free_on_map(map_, problem_, problem_.start, execution_); }
+  bool start_stands_free() const { return point_judge().stands_free(problem_.start); }
   bool goal_stands_free(Vec2 goal) const {
-    return starts_on_water(map_, problem_.start) || stands_free_on_map(map_, problem_, goal, execution_);
+    return starts_on_water(map_, problem_.start) || point_judge().stands_free(goal);
   }
   void take_prices(const MotionCost& cost) { cost_ = cost; }
   const MotionCost& price_motions(const World& world) {
@@ -424,10 +392,12 @@ class BodyOnMap : public UsualBody<WallProblem> {
   }
   void judge(const World&, Path<Vec2> path, Answer& answer) const {
     answer.path = std::move(path);
-    verify_solved_on_map(answer, map_, problem_, false, execution_);
+    point_judge().verify_solved(answer);
   }
 
  private:
+  PointJudge point_judge() const { return {scene_, problem_, execution_}; }
+
   const OccupancyMap& map_;
   std::optional<MapPrices> prices_;
   MotionCost cost_;  // empty: nothing has a price
@@ -450,7 +420,7 @@ Answer solve_chosen(const SolveRequest& request) {
   GoalChoice choice;
   answer_within_limits(chosen, [&] {
     const StageTimer timer(request.execution, "search", chosen.seconds.search, map.blocked.size());
-    if (!stands_free_on_map(map, problem, problem.start, request.execution)) {
+    if (!judge_of(request, problem).stands_free(problem.start)) {
       chosen.outcome = Outcome::start_blocked;
       return;
     }
@@ -522,7 +492,8 @@ void find_on_skeleton(const SolveRequest& request, const WallProblem& problem, c
   const Execution& execution = request.execution;
   const auto start = cell_at(map, problem.start);
   const auto goal = cell_at(map, problem.goal);
-  answer.outcome = settled_on_map(Outcome::start_blocked, map, problem, execution);
+  const PointJudge judge = judge_of(request, problem);
+  answer.outcome = judge.settled(Outcome::start_blocked);
   if (is_blocked(answer.outcome)) return;  // what lies outside of the map is
   std::vector<std::pair<Cell, Cell>> steps;
   auto* kept = request.keep != nullptr ? &steps : nullptr;
@@ -535,7 +506,7 @@ void find_on_skeleton(const SolveRequest& request, const WallProblem& problem, c
   if (is_blocked(answer.outcome)) answer.outcome = Outcome::not_connected;
   if (problem.start == problem.goal) stay(answer, problem);
   if (request.keep != nullptr) request.keep->lines.push_back(lines_of(map, steps));
-  verify_solved_on_map(answer, map, problem, true, execution);
+  judge.verify_solved(answer, true);
 }
 
 constexpr PlannerChoice occupancy_planners[] = {

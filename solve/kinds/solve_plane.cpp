@@ -190,7 +190,7 @@ void solve_whole(const SolveRequest& request, const WallProblem& problem, const 
                             ? visibility_path(*known, start, goal, options, request.execution, keep)
                             : confined_visibility_path(obstacles, start, goal, options, request.execution, keep));
   if (answer.outcome == Outcome::not_connected) answer.outcome = Outcome::infeasible;  // the graph misses no path
-  verify_solved(answer, request.scene, problem, request.execution, request.asked.judged());
+  judge_of(request, problem).verify_solved(answer);
   answer.optimal = answer.verified && has_queue(options.search);
 }
 
@@ -238,8 +238,9 @@ void solve_disc(const SolveRequest& request, const WallProblem& problem, Answer&
     tell_bracket(path, answer);
     if (request.keep != nullptr) request.keep->arcs = arcs_of(path);
   }
-  settle_blocked_ends(answer, request.scene, problem, request.execution, request.asked.judged());
-  verify_solved(answer, request.scene, problem, request.execution, request.asked.judged());
+  const PointJudge judge = judge_of(request, problem);
+  answer.outcome = judge.settled(answer.outcome);
+  judge.verify_solved(answer);
   constexpr double bracket = 1e-9;  // of the length: more than the trifles by which it is open
   answer.optimal = answer.verified && path.length - path.lower_bound <= bracket * path.length;
 }
@@ -291,7 +292,7 @@ Answer solve_by_cells(const SolveRequest& request) {
     answer.cells = CellCount{cells.cells.size(), cells.doors.size()};
     if (answer.outcome == Outcome::not_connected) answer.outcome = Outcome::infeasible;  // cells miss no way
     if (request.keep != nullptr) request.keep->lines.push_back(doors_of(cells));
-    verify_solved(answer, request.scene, problem, request.execution, request.asked.judged());
+    judge_of(request, problem).verify_solved(answer);
   });
   return answer;
 }
@@ -351,8 +352,8 @@ class PointAmongPolygons : public UsualBody<WallProblem> {
 
   std::vector<Vec2> goals(const World&) const { return {problem_.goal}; }
   void index(std::optional<World>& world, SamplerKind) const { world.emplace(scene_, problem_.reach(), execution_); }
-  bool start_stands_free() const { return stands_free(scene_, problem_, problem_.start, execution_, judged_); }
-  bool goal_stands_free(Vec2 goal) const { return stands_free(scene_, problem_, goal, execution_, judged_); }
+  bool start_stands_free() const { return goal_stands_free(problem_.start); }
+  bool goal_stands_free(Vec2 goal) const { return point_judge().stands_free(goal); }
   void take_prices(const MotionCost& cost) { cost_ = cost; }
   const MotionCost& price_motions(const World& world) {
     if (!problem_.prices.empty()) {
@@ -372,10 +373,12 @@ class PointAmongPolygons : public UsualBody<WallProblem> {
   }
   void judge(const World&, Path<Vec2> path, Answer& answer) const {
     answer.path = std::move(path);
-    verify_solved(answer, scene_, problem_, execution_, judged_);
+    point_judge().verify_solved(answer);
   }
 
  private:
+  PointJudge point_judge() const { return {scene_, problem_, execution_, judged_}; }
+
   std::optional<SidePrices> prices_;
   MotionCost cost_;  // empty: nothing has a price
 };
@@ -457,7 +460,8 @@ Answer solve_on_medial_axis(const SolveRequest& request) {
       });
     }
     take_solution(answer, std::move(solution));
-    settle_blocked_ends(answer, request.scene, problem, request.execution, request.asked.judged());
+    const PointJudge judge = judge_of(request, problem);
+    answer.outcome = judge.settled(answer.outcome);
     if (problem.start == problem.goal && !is_blocked(answer.outcome) && answer.outcome != Outcome::stopped) {
       stay(answer, problem);
     } else if (answer.outcome == Outcome::solved) {
@@ -466,7 +470,7 @@ Answer solve_on_medial_axis(const SolveRequest& request) {
     }
     const MedialAxis* axis = known != nullptr ? &known->axis : plan.made ? &plan.made->axis : nullptr;
     if (request.keep != nullptr && axis != nullptr) request.keep->lines.push_back(lines_of(*axis));
-    verify_solved(answer, request.scene, problem, request.execution, request.asked.judged());
+    judge.verify_solved(answer);
   });
   return answer;
 }
