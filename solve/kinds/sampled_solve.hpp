@@ -117,6 +117,39 @@ class UsualBody {
   Asked problem_;
 };
 
+/// A point or disc, whatever is around it. Prices: what legs cost there.
+template <class Prices>
+class PointBody : public UsualBody<WallProblem> {
+ public:
+  template <class World>
+  std::vector<Vec2> goals(const World&) const {
+    return {problem_.goal};
+  }
+  bool start_stands_free() const { return point_judge().stands_free(problem_.start); }
+  bool goal_stands_free(Vec2 goal) const { return point_judge().stands_free(goal); }
+  void take_prices(const MotionLength<Vec2>& cost) { cost_ = cost; }
+  template <class World>
+  void judge(const World&, Path<Vec2> path, Answer& answer) const {
+    answer.path = std::move(path);
+    point_judge().verify_solved(answer);
+  }
+
+ protected:
+  using UsualBody::UsualBody;
+  PointJudge point_judge() const { return {scene_, problem_, execution_, judged_}; }
+  /// where, more: as the prices take them.
+  template <class Where, class... More>
+  const MotionLength<Vec2>& price_in(const Where& where, const More&... more) {
+    if (problem_.prices.empty()) return cost_;
+    return cost_ = motion_cost(prices_.emplace(where, problem_.robot.radius, problem_.prices, more...));
+  }
+
+  MotionLength<Vec2> cost_;  // empty: nothing has a price
+
+ private:
+  std::optional<Prices> prices_;
+};
+
 template <class Body>
 class SampledSolve {
  public:

@@ -160,7 +160,6 @@ class CellSolve {
     if (wants_taut()) optimise();
     judge_of(request_, problem_).verify_solved(answer_, true);
   }
-  /// Where the question asks for other ways than the cheapest.
   void add_alternatives() {
     const RouteRule& route = request_.question.route;
     if (!route.alternatives || !answer_.verified) return;
@@ -345,7 +344,7 @@ class CellSolve {
 
 /// For prm, lazy-prm, rrt and rrt-connect. Motions are certified against the closed squares of blocked cells, wherever
 /// between them they lead.
-class BodyOnMap : public UsualBody<WallProblem> {
+class BodyOnMap : public PointBody<MapPrices> {
  public:
   using World = GridWorld;
   static void suit(RrtOptions& options) {
@@ -353,9 +352,8 @@ class BodyOnMap : public UsualBody<WallProblem> {
   }
 
   explicit BodyOnMap(const SolveRequest& request)
-      : UsualBody(request, map_problem(request.scene, request.question)), map_(*request.scene.map) {}
+      : PointBody(request, map_problem(request.scene, request.question)), map_(*request.scene.map) {}
 
-  std::vector<Vec2> goals(const World&) const { return {problem_.goal}; }
   SamplerKind choose_sampler(const SolveOptions& options, const RoadmapOptions& roadmap) const {
     const bool free_choice = !options.sampler && !roadmap.samples;
     return free_choice && is_narrow(map_.blocked) ? SamplerKind::cell_centres : roadmap.sampler;
@@ -375,32 +373,17 @@ class BodyOnMap : public UsualBody<WallProblem> {
   bool provably_apart(const World& world, const std::vector<Vec2>&) const {
     return warren::provably_apart(world.map(), world.map().blocked, problem_, execution_);
   }
-  bool start_stands_free() const { return point_judge().stands_free(problem_.start); }
   bool goal_stands_free(Vec2 goal) const {
-    return starts_on_water(map_, problem_.start) || point_judge().stands_free(goal);
+    return starts_on_water(map_, problem_.start) || PointBody::goal_stands_free(goal);
   }
-  void take_prices(const MotionCost& cost) { cost_ = cost; }
-  const MotionCost& price_motions(const World& world) {
-    if (!problem_.prices.empty()) {
-      cost_ = motion_cost(prices_.emplace(world.map(), problem_.robot.radius, problem_.prices, execution_));
-    }
-    return cost_;
-  }
+  const MotionCost& price_motions(const World& world) { return price_in(world.map(), execution_); }
   Path<Vec2> shortened(const World& world, Path<Vec2> path, Answer& answer) const {
     if (cost_) return pulled_taut(world, std::move(path), cost_, map_.cell, execution_);
     return shortcut(world, std::move(path), World::distance, answer);
   }
-  void judge(const World&, Path<Vec2> path, Answer& answer) const {
-    answer.path = std::move(path);
-    point_judge().verify_solved(answer);
-  }
 
  private:
-  PointJudge point_judge() const { return {scene_, problem_, execution_}; }
-
   const OccupancyMap& map_;
-  std::optional<MapPrices> prices_;
-  MotionCost cost_;  // empty: nothing has a price
 };
 
 /// By a planner that samples, or along the skeleton.
@@ -467,46 +450,20 @@ NamedLines lines_of(const OccupancyMap& map, const std::vector<std::pair<Cell, C
 
 /// What was found along the skeleton, in the world's coordinates.
 void take_skeleton_path(Answer& answer, const SkeletonPath& plan, const OccupancyMap& map, const WallProblem& problem) {
-  Solution<Vec2> solution;
-  solution.outcome = plan.outcome;
-  solution.separation = plan.separation;
-  solution.roadmap = plan.roadmap;
-  solution.counters.expanded = plan.expanded;
-  solution.separation.nearest_gap *= map.cell;
-  for (std::array<double, 2>* place : {&solution.separation.near_start, &solution.separation.near_goal}) {
+  answer.outcome = plan.outcome;
+  answer.separation = plan.separation;
+  answer.separation.nearest_gap *= map.cell;
+  for (std::array<double, 2>* place : {&answer.separation.near_start, &answer.separation.near_goal}) {
     const Vec2 in_world = world_point(map, {(*place)[0], (*place)[1]});
     *place = {in_world.x, in_world.y};
   }
-  solution.seconds = plan.seconds;
-  if (plan.outcome == Outcome::solved) {
-    solution.path = path_over_cells(map, problem.start, plan.cells, problem.goal);
-    answer.path_figures.push_back({"cells", std::uint64_t{plan.cells.size()}});
-    answer.path_figures.push_back({"axis_clearance", plan.clearance * map.cell});
-  }
-  take_solution(answer, std::move(solution));
-}
-
-void find_on_skeleton(const SolveRequest& request, const WallProblem& problem, const SkeletonOptions& options,
-                      Answer& answer) {
-  const OccupancyMap& map = *request.scene.map;
-  const Execution& execution = request.execution;
-  const auto start = cell_at(map, problem.start);
-  const auto goal = cell_at(map, problem.goal);
-  const PointJudge judge = judge_of(request, problem);
-  answer.outcome = judge.settled(Outcome::start_blocked);
-  if (is_blocked(answer.outcome)) return;  // what lies outside of the map is
-  std::vector<std::pair<Cell, Cell>> steps;
-  auto* kept = request.keep != nullptr ? &steps : nullptr;
-  const SkeletonRoadmap* known = asked_roadmap<SkeletonRoadmap>(request);
-  const SkeletonPath plan =
-      known != nullptr ? plan_on_skeleton(*known, *start, *goal, options, execution, kept)
-                       : plan_on_skeleton(closed_cells(map, problem.start), *start, *goal, options, execution, kept);
-  take_skeleton_path(answer, plan, map, problem);
-  // The skeleton was asked about the middles of the cells.
-  if (is_blocked(answer.outcome)) answer.outcome = Outcome::not_connected;
-  if (problem.start == problem.goal) stay(answer, problem);
-  if (request.keep != nullptr) request.keep->lines.push_back(lines_of(map, steps));
-  judge.verify_solved(answer, true);
+  answer.roadmap = plan.roadmap;
+  answer.counters.expanded = plan.expanded;
+  answer.seconds += plan.seconds;
+  if (plan.outcome != Outcome::solved) return;
+  answer.path = path_over_cells(map, problem.start, plan.cells, problem.goal);
+  answer.path_figures.push_back({"cells", std::uint64_t{plan.cells.size()}});
+  answer.path_figures.push_back({"axis_clearance", plan.clearance * map.cell});
 }
 
 constexpr PlannerChoice occupancy_planners[] = {
@@ -542,15 +499,35 @@ Verdict recheck_occupancy(const Scene& scene, const Question& question, const Re
 /// verification.
 Answer solve_on_skeleton(const SolveRequest& request) {
   const WallProblem problem = map_problem(request.scene, request.question);
+  const OccupancyMap& map = *request.scene.map;
   const SearchChoice search = search_choice(request.options);
-  const SkeletonOptions options{.radius = problem.reach() / request.scene.map->cell,
+  const SkeletonOptions options{.radius = problem.reach() / map.cell,
                                 .objective = request.options.axis.objective.value_or(AxisObjective::length),
                                 .search = search.search,
                                 .queue = search.queue};
   Answer answer;
   describe_plane_planner(answer, request, problem, search);
   answer.options.push_back({"objective", std::string(name_of(options.objective))});
-  answer_within_limits(answer, [&] { find_on_skeleton(request, problem, options, answer); });
+  answer_within_limits(answer, [&] {
+    const PointJudge judge = judge_of(request, problem);
+    answer.outcome = judge.settled(Outcome::start_blocked);
+    if (is_blocked(answer.outcome)) return;  // what lies outside of the map is
+    const Cell start = *cell_at(map, problem.start);
+    const Cell goal = *cell_at(map, problem.goal);
+    std::vector<std::pair<Cell, Cell>> steps;
+    auto* kept = request.keep != nullptr ? &steps : nullptr;
+    const SkeletonRoadmap* known = asked_roadmap<SkeletonRoadmap>(request);
+    take_skeleton_path(answer,
+                       known != nullptr ? plan_on_skeleton(*known, start, goal, options, request.execution, kept)
+                                        : plan_on_skeleton(closed_cells(map, problem.start), start, goal, options,
+                                                           request.execution, kept),
+                       map, problem);
+    // The skeleton was asked about the middles of the cells.
+    if (is_blocked(answer.outcome)) answer.outcome = Outcome::not_connected;
+    if (problem.start == problem.goal) stay(answer, problem);
+    if (request.keep != nullptr) request.keep->lines.push_back(lines_of(map, steps));
+    judge.verify_solved(answer, true);
+  });
   return answer;
 }
 

@@ -339,7 +339,7 @@ PlannerKind usual_plane_planner(const SolveOptions& options, const Scene& scene,
 }
 
 /// For all planners that sample.
-class PointAmongPolygons : public UsualBody<WallProblem> {
+class PointAmongPolygons : public PointBody<SidePrices> {
  public:
   using World = PolygonWorld;
   static constexpr bool names_pipeline = true;
@@ -347,20 +347,11 @@ class PointAmongPolygons : public UsualBody<WallProblem> {
   static constexpr bool improves_by_draws = false;
 
   explicit PointAmongPolygons(const SolveRequest& request)
-      : UsualBody(request, keeping_off(request.scene, request.question,
+      : PointBody(request, keeping_off(request.scene, request.question,
                                        fmt::format("{} keeps off the walls", name_of(request.planner)))) {}
 
-  std::vector<Vec2> goals(const World&) const { return {problem_.goal}; }
   void index(std::optional<World>& world, SamplerKind) const { world.emplace(scene_, problem_.reach(), execution_); }
-  bool start_stands_free() const { return goal_stands_free(problem_.start); }
-  bool goal_stands_free(Vec2 goal) const { return point_judge().stands_free(goal); }
-  void take_prices(const MotionCost& cost) { cost_ = cost; }
-  const MotionCost& price_motions(const World& world) {
-    if (!problem_.prices.empty()) {
-      cost_ = motion_cost(prices_.emplace(world.sides(), problem_.robot.radius, problem_.prices));
-    }
-    return cost_;
-  }
+  const MotionCost& price_motions(const World& world) { return price_in(world.sides()); }
   Path<Vec2> shortened(const World& world, const Path<Vec2>& path, Answer&) const {
     constexpr double steps_a_path = 100.0;
     const double step = path_length(path, World::distance) / steps_a_path;
@@ -371,16 +362,6 @@ class PointAmongPolygons : public UsualBody<WallProblem> {
                              const Execution& execution, Counters&) {
     return taut_path(world.sides(), path, world.planning_clearance(), execution);
   }
-  void judge(const World&, Path<Vec2> path, Answer& answer) const {
-    answer.path = std::move(path);
-    point_judge().verify_solved(answer);
-  }
-
- private:
-  PointJudge point_judge() const { return {scene_, problem_, execution_, judged_}; }
-
-  std::optional<SidePrices> prices_;
-  MotionCost cost_;  // empty: nothing has a price
 };
 
 Answer solve_plane(const SolveRequest& request) {
