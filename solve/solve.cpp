@@ -149,14 +149,12 @@ std::string left_undone(const RobotSpec& robot, const GoalRule& rule, std::span<
   return returns ? "" : "return: the path does not end where it starts";
 }
 
-/// So are the places to visit and the way-points.
 void check_stops_passed(Verdict& verdict, const GoalRule& rule, const RecordedAnswer& answer) {
   if (!verdict.verified) return;
   std::string undone = left_undone(verdict.problem.robot, rule, answer.via, answer);
   if (!undone.empty()) refute(verdict, std::move(undone));
 }
 
-/// The length that an answer claims is a part of what is verified.
 void check_length(Verdict& verdict, const RecordedAnswer& answer) {
   if (!verdict.verified || !answer.length) return;
   if (std::abs(*answer.length - verdict.length) <= as_told * verdict.length) return;
@@ -235,7 +233,6 @@ void check_alternatives(Verdict& verdict, const Scene& judged, const Question& a
   check_classes(verdict, *judged.map, answer, execution);
 }
 
-/// What is found of the lower bound.
 void take_bound(Verdict& verdict, const JudgedBound& judged) {
   verdict.bound = judged.verdict;
   if (judged.verdict == BoundVerdict::refuted) refute(verdict, "lower_bound: " + judged.what);
@@ -440,7 +437,6 @@ void check_bound(Verdict& verdict, const Scene& scene, const RecordedAnswer& ans
   }
 }
 
-/// What shapes the roadmap.
 SolveOptions options_of_roadmap(const SolveOptions& options, PlannerKind planner) {
   SolveOptions kept = options;
   kept.planner = planner;

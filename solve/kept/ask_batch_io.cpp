@@ -35,7 +35,6 @@ struct BatchQuestion {
   std::string csv_id() const { return csv_field(id); }
 };
 
-/// What a line has.
 enum class BatchLines : std::uint8_t { questions, starts, goals };
 
 using Json = nlohmann::json;
@@ -267,7 +266,6 @@ std::string path_json(const Answer& answer) {
   return text + "]";
 }
 
-/// One chunk of answers as text.
 struct AnsweredChunk {
   std::string text;
   std::uint64_t solved = 0;
@@ -341,7 +339,6 @@ std::vector<BatchQuestion> all_places(const InputFile& file, const Roadmap& road
   return all;
 }
 
-/// What is known of one pair.
 struct Entry {
   LengthAnswer answer;
   std::string error;  ///< why it can't be asked; empty: it can

@@ -78,7 +78,6 @@ class ExportedEdgesView {
   }
 
   std::uint64_t count() const { return numbers_.back(); }  ///< of lines: with EdgeWays::both two an undirected edge
-  /// How many are written, and how many are not.
   const ExportAccount& account() const { return account_; }
   /// Edge ends of the roadmap, written or not.
   std::size_t ends() const { return parts_.to.size(); }

@@ -101,7 +101,6 @@ std::optional<CellId> lattice_cell(const RouteIndex& index, Vec2 p) {
   return index.passages().open_at(col, row) != 0 ? std::optional(row * size.cols + col) : std::nullopt;
 }
 
-/// The shortest way over the lattice between any two places.
 class LatticeQuestion {
  public:
   /// `query`: of the index. All are referred to. Throws Stopped.

@@ -19,7 +19,6 @@
 namespace warren {
 namespace {
 
-/// One question's decisions, in their order.
 class Choosing {
  public:
   Choosing(WaysOverCells& ways, const OccupancyMap& map, const WallProblem& problem, bool open_end)
@@ -87,7 +86,6 @@ class Choosing {
     return std::nullopt;
   }
 
-  /// The place that is nearest to any of the goals.
   std::optional<std::pair<WaysOverCells::Nearest, std::size_t>> nearest() {
     std::optional<std::pair<WaysOverCells::Nearest, std::size_t>> best;
     for (std::size_t i = 0; i < goals_.size(); ++i) {

@@ -32,7 +32,6 @@ bool takes(const SolveKind& kind, const PlannerChoice* choice, AskedWord word) {
   return choice != nullptr && (choice->words.has(word) || (word == AskedWord::visit && !kind.unmade));
 }
 
-/// Does any planner of the kind?
 template <class Word>
 bool is_taken(const SolveKind& kind, Word word) {
   return std::ranges::any_of(kind.planners, [&](const PlannerChoice& choice) { return takes(kind, &choice, word); });
@@ -62,7 +61,6 @@ std::string listed(const std::vector<Word>& words) {
   return text;
 }
 
-/// The planners of all kinds for which `holds` is true of some choice, in their order.
 template <class Holds>
 std::vector<PlannerKind> planners_where(const Holds& holds) {
   std::vector<PlannerKind> planners;
@@ -76,7 +74,6 @@ std::vector<PlannerKind> planners_where(const Holds& holds) {
   return planners;
 }
 
-/// Of the kinds that fit a problem, each planner once.
 std::vector<PlannerKind> planners_of(const std::vector<const SolveKind*>& kinds) {
   std::vector<PlannerKind> planners;
   for (const SolveKind* kind : kinds) {

@@ -68,7 +68,6 @@ std::optional<double> shortest_way(const PlaneObstacles& obstacles, Vec2 start, 
   return below_rounding(length, found.roadmap.milestones);
 }
 
-/// What the reference point goes at least.
 double least_way(const Scene& scene, const Problem& problem, BoundEffort effort, const Execution& execution) {
   const Vec2 start{problem.start[0], problem.start[1]};
   const Vec2 goal{problem.goal[0], problem.goal[1]};
@@ -153,7 +152,6 @@ bool ends_near(const Answer& answer) {
   return answer.goal_reached && (answer.goal_reached->distance > 0.0 || answer.problem.rule.heading_rad);
 }
 
-/// One start, one goal.
 bool has_one_way(const Problem& problem) {
   const GoalRule& rule = problem.rule;
   return rule.others.empty() && !rule.region && rule.visit.empty() && !rule.back && problem.start.size() == 2 &&

@@ -15,7 +15,6 @@
 namespace warren {
 namespace {
 
-/// Is anything asked that makes places dear?
 bool asks_price(const Prices& prices) {
   const AskedWords asked = words_in(prices);
   const std::vector<AskedWord> words = price_words.members();

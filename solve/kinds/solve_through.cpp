@@ -57,7 +57,6 @@ bool is_worse_end(std::string_view end, std::string_view other) {
   return std::ranges::find(best_first, end) >= std::ranges::find(best_first, other);
 }
 
-/// The path goes on where the one before ended.
 void add_path(Answer& answer, const Answer& before) {
   Path<Vec2> path = before.path;
   if (!answer.path.empty()) path.insert(path.end(), answer.path.begin() + 1, answer.path.end());
@@ -100,7 +99,6 @@ void add_by_products(ByProducts& whole, ByProducts made) {
   put_before(whole.arcs.turns, made.arcs.turns);
 }
 
-/// One question with stops: the legs share it and fill in the answer.
 class ThroughStops {
  public:
   ThroughStops(const SolveRequest& request, std::span<const std::vector<double>> stops,

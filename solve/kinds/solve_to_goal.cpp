@@ -17,7 +17,6 @@ namespace {
 
 Vec2 position(const std::vector<double>& state) { return {state[0], state[1]}; }
 
-/// One question: the steps share it and fill in the answer.
 class ToGoal {
  public:
   ToGoal(const SolveKind& kind, const SolveRequest& request)

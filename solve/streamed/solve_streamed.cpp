@@ -120,7 +120,6 @@ class JudgedPath : public PathTaker {
   bool is_first_ = true;
 };
 
-/// One solve: the steps share the question and fill in the answer.
 class StreamedSolve {
  public:
   StreamedSolve(const Scene& scene, const Question& question, const SolveOptions& options, const Execution& execution,

@@ -50,7 +50,6 @@ WallProblem problem_of(const SolveRequest& request) {
   return keeping_off(request.scene, request.question, "prm and lazy-prm keep off the walls");
 }
 
-/// One solve: the steps share the question and fill in the answer.
 class WallSolve {
  public:
   explicit WallSolve(const SolveRequest& request)
