@@ -470,13 +470,7 @@ Answer kept_and_solved(Scene scene, const Question& question, const SolveOptions
   roadmap = build_within(std::move(scene), question, built_by, execution, IndexChoice::where_it_pays, &account);
   if (by_question && built_by.planner != PlannerKind::lazy_prm) return solved;
   const RoadmapQuery query(roadmap, execution, Questions::one);
-  RoadmapSearchFields how{.search = options.search,
-                          .queue = options.queue,
-                          .optimise = options.optimise,
-                          .cusp_cost = options.car.cusp_cost,
-                          .reverse_cost = options.car.reverse_cost,
-                          .heuristic = options.heuristic,
-                          .bound = options.bound};
+  SolveOptions how = options;
   if (!roadmap.arrays.hierarchy.empty() && !how.search) how.search = SearchMethod::astar;  // as solve searches
   QuestionScratch scratch;
   Answer answer =

@@ -37,7 +37,7 @@ constexpr std::size_t most_indexed_walls = std::size_t{1} << 23;
 
 /// An index is not searched.
 void refuse_search(const RoadmapSearchFields& how) {
-  if (how.search || how.queue || how.attach || how.heuristic) {
+  if (how.search || how.queue || how.roadmap.attach || how.heuristic) {
     throw UsageError(fmt::format("@{}: this roadmap is asked by its index; build it with @index none to search it",
                                  how.search      ? "search"
                                  : how.queue     ? "queue"
@@ -284,14 +284,8 @@ Answer RoadmapQuery::ask_within(const std::vector<double>& start, const std::vec
   const Question question = question_to_one(roadmap_, start, goal);
   if (roadmap_.lattice != nullptr) return ask_lattice(question, how, execution, scratch);
   SolveOptions options = roadmap_.options;
-  options.search = how.search;
-  options.queue = how.queue;
-  options.heuristic = how.heuristic;
-  options.optimise = how.optimise;
-  options.bound = how.bound;
-  options.car.cusp_cost = how.cusp_cost;
-  options.car.reverse_cost = how.reverse_cost;
-  if (how.attach) options.roadmap.attach = how.attach;
+  for (const Option option : question_options.members()) copy_option(option, options, how);
+  if (how.roadmap.attach) options.roadmap.attach = how.roadmap.attach;
   options.validate();
   check_solver_options(options);
   const Scene& scene = roadmap_.world.whole(execution);

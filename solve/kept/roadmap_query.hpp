@@ -22,17 +22,8 @@ namespace warren {
 
 struct PointJudge;  // solve/kinds/solve_steps.hpp
 
-/// What a question may say beside its ends: all else is the roadmap's.
-struct RoadmapSearchFields {
-  std::optional<SearchMethod> search = {};      ///< none: A*
-  std::optional<QueueKind> queue = {};          ///< none: heap
-  std::optional<GrowingAttach> attach = {};     ///< arms alone
-  bool optimise = false;                        ///< pull the path taut after the search
-  std::optional<double> cusp_cost = {};         ///< as CarFields has them, with optimise
-  std::optional<double> reverse_cost = {};      ///< the same
-  std::optional<HeuristicKind> heuristic = {};  ///< of A*, for points and discs; none: euclidean
-  bool bound = false;                           ///< prove the best lower bound that there is
-};
+/// What a question may say beside its ends: asked_options. All others are the roadmap's, whatever is said here.
+using RoadmapSearchFields = SolveOptions;
 
 /// What one thread keeps from one question to the next.
 struct QuestionScratch {
