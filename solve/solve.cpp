@@ -16,7 +16,6 @@
 #include "solve/explain/blocked_end.hpp"
 #include "solve/kept/roadmap.hpp"
 #include "solve/kept/roadmap_query.hpp"
-#include "solve/kinds/keep_route.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 #include "solve/kinds/lower_bound.hpp"
 #include "solve/kinds/plane_steps.hpp"

@@ -98,10 +98,8 @@ void refuse_other_keys(const Json& json, bool is_place) {
   }
 }
 
-/// The questions of a batch, line by line: CSV with the header start_x,start_y,goal_x,goal_y (start_theta and
-/// goal_theta too for bodies that turn, or start_1 … start_6 and goal_1 … goal_6 for arms; any order), or JSON lines
-/// {"id", "start", "goal"}. Blank lines are none. And the places of a matrix, starts or goals: the same without start_
-/// and goal_, or {"id", "state"}. Refers to the file, the roadmap and the execution; belongs to one thread.
+/// The questions of a batch, or the places of a matrix, line by line: CSV or JSON lines (docs/file_formats.md). Refers
+/// to the file, the roadmap and the execution; belongs to one thread.
 class BatchQuestions {
  public:
   /// Throws InputError for a CSV whose header names other columns, or lacks one without which no line can be asked;

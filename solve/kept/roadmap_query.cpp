@@ -18,7 +18,6 @@
 #include "solve/kinds/lower_bound.hpp"
 #include "solve/kinds/question_of_pose.hpp"
 #include "solve/kinds/solve_steps.hpp"
-#include "solve/question/planner_choice.hpp"
 #include "verify/streamed/verify_cells.hpp"
 #include "worlds/plane/maze_world.hpp"
 

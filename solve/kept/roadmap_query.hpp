@@ -78,7 +78,6 @@ class RoadmapQuery : NotCopied {
   /// Least distance between the body at a place of a lattice and any wall, by the judge of its paths. Throws Stopped,
   /// InputError.
   double clearance_at(Vec2 place, const Execution& execution) const;
-  /// That it refers to.
   const Roadmap& roadmap() const { return roadmap_; }
   /// Length of the motion between two of the roadmap's states, in the world's metric.
   double distance(VertexId from, VertexId to) const;
@@ -94,7 +93,6 @@ class RoadmapQuery : NotCopied {
   const KeptCells* cells_of_lattice(const Execution& execution) const;
   /// By walls that are looked up, by an index, or by a pass over all obstacles.
   PointJudge judge_of_lattice(const WallProblem& problem, const Execution& execution) const;
-  /// The judge's part of ask_lattice().
   void settle_and_verify(Answer& answer, const WallProblem& problem, bool optimise, const Execution& execution,
                          const QuestionScratch& scratch) const;
   const Roadmap& roadmap_;

@@ -163,13 +163,9 @@ class CellSolve {
   void add_alternatives() {
     const RouteRule& route = request_.question.route;
     if (!route.alternatives || !answer_.verified) return;
-    WallProblem reached = problem_;
-    reached.goal = answer_.path.back();
     std::function<PriceParts(Vec2, Vec2)> parts;
     if (prices_) parts = [this](Vec2 a, Vec2 b) { return prices_->parts(a, b, scratch()); };
-    const RoutesAsked asked{
-        map_, reached, closed_, blocked(), ways().weights(), distances(), leg_prices(prices_, scratch()), parts};
-    take_alternatives(answer_, route, asked, request_.execution);
+    take_alternatives(answer_, route, ways(), distances(), parts, request_.execution);
   }
 
   /// Where there is more to decide than the way to one place.

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A point or disc among polygons and walls: joins worlds/plane/polygon_world with the planners that sample it, and the
-// planners that don't. visibility: the shortest path of a point, or of what keeps a distance, and that it is the
-// shortest is said. Of a disc that is the path with its arcs; what is verified and answered is a polyline around them.
-// Worlds with very many corners are searched lazily, unless something is asked for that needs the whole graph. With
-// --sampled-edges the graph is made as the report made it, and the answer says which of its edges are wrong. cells: a
-// route through vertical cells, and a path through its doors; that there is no route proves that there is no path.
-// voronoi: along the medial axis, as far from all obstacles as a path can be; min_clearance of the answer is measured
-// on the path by the verification.
+// planners that don't (docs/algorithms.md). What is verified and answered of a disc's shortest path is a polyline
+// around its arcs. Worlds with very many corners are searched lazily, unless something is asked for that needs the
+// whole graph. With --sampled-edges the graph is made as the report made it, and the answer says which of its edges are
+// wrong.
 
 #include <fmt/format.h>
 

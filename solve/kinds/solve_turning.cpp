@@ -225,11 +225,9 @@ std::unique_ptr<RoadmapSession> open_turning_axis(const SolveRequest& request, c
   return of_disc(request, [&](const SolveRequest& disc) { return open_geometric(disc, arrays, rule); });
 }
 
-// The planners that don't turn a polygon, in scenes: on maps, whose cells all touch, they have none. Minkowski sums of
-// the obstacles with the mirrored body (worlds/plane/obstacles_at_fixed_angle), and the visibility graph among them,
-// which gives the shortest path, or vertical cells around their union. The body keeps a hair's breadth off the
-// obstacles, a ten-billionth of the world's size, so that rounding can't fail the verification; by so little, times the
-// corners that it passes, the path may be longer than the shortest.
+// The planners that don't turn a polygon, in scenes: on maps, whose cells all touch, they have none. By so little as
+// the body keeps off the obstacles (docs/algorithms.md), times the corners that it passes, the path may be longer than
+// the shortest.
 
 class FixedAngleSolve : UnturnedSolve {
  public:
