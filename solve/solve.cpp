@@ -263,12 +263,9 @@ void check_certificate(Verdict& verdict, const Scene& scene, const RecordedAnswe
   take_bound(verdict, judged);
 }
 
-/// All goals that an answer was asked for: the one that a tolerance or region was about, or that is reached, first.
-std::vector<std::vector<double>> asked_goals(const RecordedAnswer& answer, const std::vector<double>& goal,
-                                             const GoalRule& rule) {
-  std::vector<std::vector<double>> goals{answer.goal_reached ? answer.goal_reached->asked : goal};
-  goals.insert(goals.end(), rule.others.begin(), rule.others.end());
-  return goals;
+/// Of the goals that an answer was asked for the first: that a tolerance or region was about, or that is reached.
+const std::vector<double>& first_goal(const RecordedAnswer& answer, const std::vector<double>& goal) {
+  return answer.goal_reached ? answer.goal_reached->asked : goal;
 }
 
 /// Of several goals, and of what a tolerance or region takes, the judge of the kind asks for the place where the path
@@ -284,8 +281,8 @@ std::string take_end(Question& asked, const Question& question, const Scene& sce
     throw UsageError(fmt::format("@{}: its angle is for bodies that turn, and this path has no headings",
                                  rule.region ? "goal_region" : "goal_tolerance"));
   }
-  const RecordedAnswer none;
-  auto goals = asked_goals(is_said ? none : answer, asked.goal.empty() ? scene.goal : asked.goal, rule);
+  const std::vector<double>& said = asked.goal.empty() ? scene.goal : asked.goal;
+  auto goals = rule.goals(is_said ? said : first_goal(answer, said));
   const bool of_arm = is_arm(robot_of(scene, asked));
   if (of_arm && takes_others) return "goal_tolerance: an arm's goal is met as it stands";
   const auto is_state = [&](const std::vector<double>& goal) {
@@ -348,7 +345,7 @@ void check_goal_told(Verdict& verdict, const RecordedAnswer& answer) {
 /// is priced costs as much at least.
 BoundVerdict bound_near(const Problem& problem, const RecordedAnswer& answer, double off) {
   double least = std::numeric_limits<double>::infinity();
-  for (const std::vector<double>& goal : asked_goals(answer, problem.goal, answer.problem.rule)) {
+  for (const std::vector<double>& goal : answer.problem.rule.goals(first_goal(answer, problem.goal))) {
     least = std::min(least, distance(Vec2{problem.start[0], problem.start[1]}, Vec2{goal[0], goal[1]}) - off);
   }
   const bool is_straight = *answer.lower_bound <= std::max(0.0, least) * (1.0 + as_told);

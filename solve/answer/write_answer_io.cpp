@@ -197,11 +197,7 @@ void add_arm(JsonObject& json, const ArmModel& model, const std::vector<std::str
 /// What the question says beyond start, goal and body, so that a judge knows it.
 void add_asked(JsonObject& json, const Problem& problem) {
   const GoalRule& rule = problem.rule;
-  if (!rule.others.empty()) {
-    std::vector<std::vector<double>> goals{problem.goal};
-    goals.insert(goals.end(), rule.others.begin(), rule.others.end());
-    json.add_json("goals", list_json(goals));
-  }
+  if (!rule.others.empty()) json.add_json("goals", list_json(rule.goals(problem.goal)));
   if (rule.tolerance)
     json.add_json("goal_tolerance", std::isinf(*rule.tolerance) ? "\"inf\"" : json_number(*rule.tolerance));
   if (rule.region) json.add("goal_region", *rule.region);

@@ -41,8 +41,8 @@ struct LengthAnswer {
 };
 
 /// What will be asked: one path, whose judge then passes over all obstacles; many paths, for which the judge makes bits
-/// or an index of its own first; lengths alone. Where a lattice's file says its walls, the judge looks them up there.
-enum class Questions : std::uint8_t { one, many, lengths };
+/// or an index of its own first. Where a lattice's file says its walls, the judge looks them up there.
+enum class Questions : std::uint8_t { one, many };
 
 /// Refers to the roadmap. Any number of threads may ask; while they do, learnt() is nobody's.
 class RoadmapQuery : NotCopied {

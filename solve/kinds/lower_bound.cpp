@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -138,9 +139,9 @@ double least_turns(const ArmModel& model, const Problem& problem, const std::vec
 /// To the goal that is nearest by that.
 double least_turns(const Problem& problem, const Execution& execution) {
   const ArmModel model = arm_model_of(problem.robot, problem.clearance, execution);
-  double least = least_turns(model, problem, problem.goal);
-  for (const std::vector<double>& other : problem.rule.others)
-    least = std::min(least, least_turns(model, problem, other));
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::vector<double>& goal : problem.rule.goals(problem.goal))
+    least = std::min(least, least_turns(model, problem, goal));
   return least;
 }
 

@@ -28,7 +28,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -399,9 +398,7 @@ class SampledSolve {
   void end_limits(StopReason reason) {
     if (!enum_named<StopReason>(answer_.ended_by)) return;
     answer_.stop_reason = reason;
-    if (own_ == nullptr || own_->deadline == nullptr) return;
-    last_.emplace(std::numeric_limits<double>::infinity(), own_->deadline->memory_bytes());
-    own_->deadline = &*last_;
+    if (own_ != nullptr) untime(*own_, last_);
   }
   void plan_on_lattice() {
     if constexpr (requires { body_.on_lattice(*world_, goals_, answer_); }) {

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 
 #include "solve/kinds/plane_steps.hpp"
 #include "solve/question/asked_words.hpp"
@@ -222,11 +221,8 @@ void judge_prices(Answer& answer, const Scene& scene, const Question& question, 
   const bool is_driven_on = has_stops && answer.price;  // a car's gear may change where legs meet
   if (!answer.verified || (prices.empty() && !is_driven_on)) return;
   Execution judging = execution;
-  std::optional<Deadline> untimed;  // what ended the search does not end the work on its path
-  if (answer.stop_reason && execution.deadline != nullptr) {
-    const double no_end = std::numeric_limits<double>::infinity();
-    judging.deadline = &untimed.emplace(no_end, execution.deadline->memory_bytes());
-  }
+  std::optional<Deadline> untimed;
+  if (answer.stop_reason) untime(judging, untimed);
   const StageTimer timer(judging, "verify", answer.seconds.verify, path_points(answer));
   const std::optional<Scene> effective = effective_scene(scene, prices, judging);
   const Scene& judged = effective ? *effective : scene;

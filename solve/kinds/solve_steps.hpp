@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -111,6 +112,13 @@ std::size_t judge_bytes(const Scene& scene);
 
 /// The judge's word on the path of a solved answer: as PointJudge::verify_solved().
 void take_verdict(Answer& answer, const Verification& verdict);
+
+/// Takes the time limit off an execution: what ended a search does not end the work on its path. `last` is its deadline
+/// then, of the memory alone.
+inline void untime(Execution& execution, std::optional<Deadline>& last) {
+  if (execution.deadline == nullptr) return;
+  execution.deadline = &last.emplace(std::numeric_limits<double>::infinity(), execution.deadline->memory_bytes());
+}
 
 /// Runs `solve`, which fills in `answer`; its seconds are solve_s, and whatever stops it is an answer. One that is not
 /// verified claims nothing.

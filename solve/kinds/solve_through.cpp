@@ -240,11 +240,8 @@ class ThroughStops {
     if (is_timed_) whole_.iterations.reset();  // no number is that of each leg
     const double spent_s = whole_.solve_s;
     Execution execution = request_.execution;
-    std::optional<Deadline> untimed;  // what ended the search of who gets better does not end the work
-    if (improves() && execution.deadline != nullptr) {
-      const std::size_t memory_bytes = execution.deadline->memory_bytes();
-      execution.deadline = &untimed.emplace(std::numeric_limits<double>::infinity(), memory_bytes);
-    }
+    std::optional<Deadline> untimed;
+    if (improves()) untime(execution, untimed);
     answer_within_limits(whole_, [&] {
       const StageTimer timer(execution, "verify", whole_.seconds.verify, path_points(whole_));
       const Question asked = whole_.problem.question();

@@ -94,8 +94,7 @@ int ask_many(const Arguments& arguments) {
   arguments.refuse(path_option_specs(), why);
   Run run(arguments);
   Roadmap roadmap = load_roadmap(arguments, run.execution());
-  const auto questions = is_table || options.lengths_only ? Questions::lengths : Questions::many;
-  const auto query = std::make_unique<RoadmapQuery>(roadmap, run.execution(), questions);
+  const auto query = std::make_unique<RoadmapQuery>(roadmap, run.execution(), Questions::many);
   const auto [said, wrong] = (is_table ? ask_table : ask_lines)(*query, arguments, options, run.execution());
   if (keep_file) {
     learn(roadmap, *query, run.execution());
