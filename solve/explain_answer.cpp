@@ -71,7 +71,6 @@ class PathParts {
   std::size_t size() const { return answer_.state_count(); }
   bool in_plane() const { return answer_.states.empty(); }
   std::vector<double> state(std::size_t i) const { return answer_.state(i); }
-  /// Least room between the states first and last.
   double clearance(std::size_t first, std::size_t last) const {
     std::vector<std::vector<double>> states;
     for (std::size_t i = first; i <= last; ++i) states.push_back(state(i));
@@ -149,7 +148,6 @@ std::optional<double> one_sample_in(const Scene& scene, const Answer& answer, co
   return std::max(1.0, box.width() * box.height() / (free * free));
 }
 
-/// As samples and nodes may be.
 std::uint64_t four_times(std::uint64_t n) { return n > most_samples / 4 ? most_samples : 4 * n; }
 
 class Hints {

@@ -16,7 +16,6 @@
 #include "solve/explain/blocked_end.hpp"
 #include "solve/kept/roadmap.hpp"
 #include "solve/kept/roadmap_query.hpp"
-#include "solve/kinds/keep_route.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 #include "solve/kinds/lower_bound.hpp"
 #include "solve/kinds/plane_steps.hpp"
@@ -149,14 +148,12 @@ std::string left_undone(const RobotSpec& robot, const GoalRule& rule, std::span<
   return returns ? "" : "return: the path does not end where it starts";
 }
 
-/// So are the places to visit and the way-points.
 void check_stops_passed(Verdict& verdict, const GoalRule& rule, const RecordedAnswer& answer) {
   if (!verdict.verified) return;
   std::string undone = left_undone(verdict.problem.robot, rule, answer.via, answer);
   if (!undone.empty()) refute(verdict, std::move(undone));
 }
 
-/// The length that an answer claims is a part of what is verified.
 void check_length(Verdict& verdict, const RecordedAnswer& answer) {
   if (!verdict.verified || !answer.length) return;
   if (std::abs(*answer.length - verdict.length) <= as_told * verdict.length) return;
@@ -235,7 +232,6 @@ void check_alternatives(Verdict& verdict, const Scene& judged, const Question& a
   check_classes(verdict, *judged.map, answer, execution);
 }
 
-/// What is found of the lower bound.
 void take_bound(Verdict& verdict, const JudgedBound& judged) {
   verdict.bound = judged.verdict;
   if (judged.verdict == BoundVerdict::refuted) refute(verdict, "lower_bound: " + judged.what);
@@ -267,12 +263,9 @@ void check_certificate(Verdict& verdict, const Scene& scene, const RecordedAnswe
   take_bound(verdict, judged);
 }
 
-/// All goals that an answer was asked for: the one that a tolerance or region was about, or that is reached, first.
-std::vector<std::vector<double>> asked_goals(const RecordedAnswer& answer, const std::vector<double>& goal,
-                                             const GoalRule& rule) {
-  std::vector<std::vector<double>> goals{answer.goal_reached ? answer.goal_reached->asked : goal};
-  goals.insert(goals.end(), rule.others.begin(), rule.others.end());
-  return goals;
+/// Of the goals that an answer was asked for the first: that a tolerance or region was about, or that is reached.
+const std::vector<double>& first_goal(const RecordedAnswer& answer, const std::vector<double>& goal) {
+  return answer.goal_reached ? answer.goal_reached->asked : goal;
 }
 
 /// Of several goals, and of what a tolerance or region takes, the judge of the kind asks for the place where the path
@@ -288,8 +281,8 @@ std::string take_end(Question& asked, const Question& question, const Scene& sce
     throw UsageError(fmt::format("@{}: its angle is for bodies that turn, and this path has no headings",
                                  rule.region ? "goal_region" : "goal_tolerance"));
   }
-  const RecordedAnswer none;
-  auto goals = asked_goals(is_said ? none : answer, asked.goal.empty() ? scene.goal : asked.goal, rule);
+  const std::vector<double>& said = asked.goal.empty() ? scene.goal : asked.goal;
+  auto goals = rule.goals(is_said ? said : first_goal(answer, said));
   const bool of_arm = is_arm(robot_of(scene, asked));
   if (of_arm && takes_others) return "goal_tolerance: an arm's goal is met as it stands";
   const auto is_state = [&](const std::vector<double>& goal) {
@@ -352,7 +345,7 @@ void check_goal_told(Verdict& verdict, const RecordedAnswer& answer) {
 /// is priced costs as much at least.
 BoundVerdict bound_near(const Problem& problem, const RecordedAnswer& answer, double off) {
   double least = std::numeric_limits<double>::infinity();
-  for (const std::vector<double>& goal : asked_goals(answer, problem.goal, answer.problem.rule)) {
+  for (const std::vector<double>& goal : answer.problem.rule.goals(first_goal(answer, problem.goal))) {
     least = std::min(least, distance(Vec2{problem.start[0], problem.start[1]}, Vec2{goal[0], goal[1]}) - off);
   }
   const bool is_straight = *answer.lower_bound <= std::max(0.0, least) * (1.0 + as_told);
@@ -440,7 +433,6 @@ void check_bound(Verdict& verdict, const Scene& scene, const RecordedAnswer& ans
   }
 }
 
-/// What shapes the roadmap.
 SolveOptions options_of_roadmap(const SolveOptions& options, PlannerKind planner) {
   SolveOptions kept = options;
   kept.planner = planner;
@@ -474,13 +466,7 @@ Answer kept_and_solved(Scene scene, const Question& question, const SolveOptions
   roadmap = build_within(std::move(scene), question, built_by, execution, IndexChoice::where_it_pays, &account);
   if (by_question && built_by.planner != PlannerKind::lazy_prm) return solved;
   const RoadmapQuery query(roadmap, execution, Questions::one);
-  RoadmapSearchFields how{.search = options.search,
-                          .queue = options.queue,
-                          .optimise = options.optimise,
-                          .cusp_cost = options.car.cusp_cost,
-                          .reverse_cost = options.car.reverse_cost,
-                          .heuristic = options.heuristic,
-                          .bound = options.bound};
+  SolveOptions how = options;
   if (!roadmap.arrays.hierarchy.empty() && !how.search) how.search = SearchMethod::astar;  // as solve searches
   QuestionScratch scratch;
   Answer answer =

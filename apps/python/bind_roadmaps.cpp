@@ -181,7 +181,7 @@ KeptAnswer ask(KeptRoadmap& kept, py::dict keywords, bool keep, bool explain) {
   CallLimits limits = take_limits(keywords);
   const tools::Arguments words = arguments_of(made_once<asking>(), keywords);
   const Question question = tools::question_words(words);
-  const RoadmapSearchFields how = tools::search_words(words);
+  const RoadmapSearchFields how = tools::solve_words(words);
   const Asking asking(kept);
   KeptAnswer said;
   said.answer = limits.run([&](const Execution& execution) {
@@ -243,8 +243,8 @@ void ask_lengths(const KeptRoadmap& kept, const NumberRows& starts, const Number
 py::array lengths(KeptRoadmap& kept, const py::object& from, const py::object& to, bool each_to_each,
                   py::dict keywords) {
   CallLimits limits = take_limits(keywords);
-  const RoadmapSearchFields how = tools::search_words(
-      arguments_of(each_to_each ? made_once<asking_matrix>() : made_once<asking_pairs>(), keywords));
+  const RoadmapSearchFields how =
+      tools::solve_words(arguments_of(each_to_each ? made_once<asking_matrix>() : made_once<asking_pairs>(), keywords));
   const std::size_t width = state_size(kept.roadmap().robot);
   const NumberRows starts = rows_of(from, "starts", {width});
   const NumberRows goals = width == 3  ? rows_of(to, "goals", {3, 2})

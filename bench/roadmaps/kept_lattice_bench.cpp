@@ -44,7 +44,7 @@ void bm_lattice_open_and_first_length(benchmark::State& state) {
   const double far = static_cast<double>(state.range(0)) - 3.0;
   for (auto _ : state) {
     const Roadmap roadmap = read_roadmap(file.path());
-    const RoadmapQuery query(roadmap, {}, Questions::lengths);
+    const RoadmapQuery query(roadmap, {}, Questions::many);
     QuestionScratch scratch;
     const LengthAnswer answer = query.length_within({17.0, 4.0}, {far, 3.0}, {}, {}, scratch);
     check(answer.outcome == Outcome::solved, "a length");

@@ -41,7 +41,6 @@ std::string_view why_dropped(const Answer& answer) {
 struct Lines {
   const Palette& palette;
   std::string text = {};
-  /// Nothing of what is empty.
   void add(std::string_view name, std::string_view what) {
     if (!what.empty()) text += fmt::format("  {}{}\n", palette.faint(fmt::format("{:<14}", name)), what);
   }
@@ -117,7 +116,6 @@ void add_narrowest(Lines& lines, const Answer& answer) {
   lines.add("narrowest", text);
 }
 
-/// The stages that took most, until they make nine tenths.
 void add_times(Lines& lines, const Answer& answer) {
   auto stages = named_stages(answer.seconds);
   std::ranges::stable_sort(stages, [](const auto& a, const auto& b) { return a.second > b.second; });
@@ -165,7 +163,6 @@ std::string samples_note(const Answer& answer) {
   return fmt::format("{} drawn, {} dropped: --explain says why", grouped(c.samples), grouped(c.samples - c.kept));
 }
 
-/// How much room there is where the body does not fit, but for limits and what is outside of all.
 std::string room_note(const Answer& answer) {
   if (!answer.blocked || !(answer.blocked->needed > 0.0)) return {};
   for (const char* other : {"outside", "limits"}) {
@@ -249,7 +246,6 @@ bool is_sum(std::string_view key) {
   return std::ranges::find(sums, key) != sums.end();
 }
 
-/// In the order of the work, without what was counted.
 std::vector<StageLine> plain_lines(const std::vector<StageCost>& costs) {
   std::vector<StageLine> lines;
   for (const StageCost& cost : costs) {

@@ -31,7 +31,6 @@ std::string notes_text(const Answer& answer, const Palette& palette);
 // The stages of an answer one by one, as lines: what each took, of how many items. Where planners draw samples, these
 // are the links of the chain: samples, index, neighbours, checks, rows, components, reduction, queue, verified.
 
-/// One stage.
 struct StageLine {
   std::string key;    ///< in JSON and CSV, with _cpu the key of its CPU time
   std::string label;  ///< for people

@@ -154,7 +154,6 @@ class AnswerReader {
   /// In the list of that name, in one of its objects.
   bool in_one_of(std::string_view name) const { return objects_ >= 2 && key_ == name && arrays_ >= 1; }
 
-  /// A number of an object in the answer, where it matters.
   void take_inner(double value) {
     if (in_one_of("alternatives")) {
       AlternativePath& other = answer_.alternatives.back();

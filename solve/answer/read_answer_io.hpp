@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "core/base/cell_potential.hpp"
-#include "core/base/solution.hpp"
 #include "core/base/types.hpp"
 #include "core/run/execution.hpp"
 #include "scenes/scene/scene.hpp"
@@ -53,7 +52,6 @@ inline RecordedAnswer read_answer(const std::string& file, const Execution& exec
   return read_answer(InputFile(file, execution), execution);
 }
 
-/// All states of its path.
 std::vector<std::vector<double>> states_of(const RecordedAnswer& answer);
 
 /// Throws InputError unless each state of the path has so many numbers; `body` is whose they are.

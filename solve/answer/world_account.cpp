@@ -10,7 +10,6 @@
 #include "scenes/text/human_units.hpp"
 #include "scenes/text/json_text.hpp"
 #include "scenes/text/scene_text.hpp"
-#include "solve/question/question.hpp"
 
 namespace warren {
 

@@ -128,7 +128,6 @@ std::string holes_json(const std::vector<MapHole>& holes) {
   });
 }
 
-/// Which of the goals was reached and in which order places were visited, where there was a choice.
 void add_choices(JsonObject& json, const Answer& answer) {
   if (answer.goal_index) json.add("goal_index", *answer.goal_index);
   if (answer.goal_reached) json.add_json("goal_reached", reached_json(*answer.goal_reached));
@@ -138,7 +137,6 @@ void add_choices(JsonObject& json, const Answer& answer) {
   if (!answer.order.empty()) json.add_json("order", json_list(std::span(answer.order)));
 }
 
-/// How good the path is, as far as that is proved, and how it came to be.
 void add_quality(JsonObject& json, const Answer& answer) {
   if (answer.optimal) json.add("optimal", true);
   if (answer.cost) json.add("cost", *answer.cost);
@@ -199,11 +197,7 @@ void add_arm(JsonObject& json, const ArmModel& model, const std::vector<std::str
 /// What the question says beyond start, goal and body, so that a judge knows it.
 void add_asked(JsonObject& json, const Problem& problem) {
   const GoalRule& rule = problem.rule;
-  if (!rule.others.empty()) {
-    std::vector<std::vector<double>> goals{problem.goal};
-    goals.insert(goals.end(), rule.others.begin(), rule.others.end());
-    json.add_json("goals", list_json(goals));
-  }
+  if (!rule.others.empty()) json.add_json("goals", list_json(rule.goals(problem.goal)));
   if (rule.tolerance)
     json.add_json("goal_tolerance", std::isinf(*rule.tolerance) ? "\"inf\"" : json_number(*rule.tolerance));
   if (rule.region) json.add("goal_region", *rule.region);
@@ -257,7 +251,6 @@ void add_work(JsonObject& json, const Answer& answer) {
   json.add("solve_s", answer.solve_s, "peak_memory_bytes", std::uint64_t{answer.peak_memory_bytes});
 }
 
-/// All but the path.
 std::string json_head(const Answer& answer, const Execution& execution) {
   JsonObject json(",\n ", ": ");
   add_outcome(json, answer);

@@ -519,7 +519,6 @@ void explain_reach(Answer& answer, const Vec3& place, const ArmProblem& problem)
                   human_number(reach));
 }
 
-/// Angles that no joint has: degrees are meant.
 std::string degrees_hint(std::span<const double> angles) {
   constexpr double a_turn_and_a_bit = 6.3;
   const auto large = std::ranges::find_if(angles, [](double a) { return std::abs(a) > a_turn_and_a_bit; });
@@ -547,7 +546,6 @@ void explain_tool_place(Answer& answer, const BlockedArm& arm, const Vec3& place
   answer.blocked->distance = norm_between(*free, answer.problem.goal);
 }
 
-/// Throws Stopped.
 void explain_blocked_arm(const Scene& scene, Answer& answer, const Execution& execution) {
   const bool is_start = answer.outcome == Outcome::start_blocked;
   const std::vector<double>& asked = is_start ? answer.problem.start : answer.problem.goal;

@@ -35,7 +35,6 @@ struct BatchQuestion {
   std::string csv_id() const { return csv_field(id); }
 };
 
-/// What a line has.
 enum class BatchLines : std::uint8_t { questions, starts, goals };
 
 using Json = nlohmann::json;
@@ -99,10 +98,8 @@ void refuse_other_keys(const Json& json, bool is_place) {
   }
 }
 
-/// The questions of a batch, line by line: CSV with the header start_x,start_y,goal_x,goal_y (start_theta and
-/// goal_theta too for bodies that turn, or start_1 … start_6 and goal_1 … goal_6 for arms; any order), or JSON lines
-/// {"id", "start", "goal"}. Blank lines are none. And the places of a matrix, starts or goals: the same without start_
-/// and goal_, or {"id", "state"}. Refers to the file, the roadmap and the execution; belongs to one thread.
+/// The questions of a batch, or the places of a matrix, line by line: CSV or JSON lines (docs/file_formats.md). Refers
+/// to the file, the roadmap and the execution; belongs to one thread.
 class BatchQuestions {
  public:
   /// Throws InputError for a CSV whose header names other columns, or lacks one without which no line can be asked;
@@ -267,7 +264,6 @@ std::string path_json(const Answer& answer) {
   return text + "]";
 }
 
-/// One chunk of answers as text.
 struct AnsweredChunk {
   std::string text;
   std::uint64_t solved = 0;
@@ -341,7 +337,6 @@ std::vector<BatchQuestion> all_places(const InputFile& file, const Roadmap& road
   return all;
 }
 
-/// What is known of one pair.
 struct Entry {
   LengthAnswer answer;
   std::string error;  ///< why it can't be asked; empty: it can

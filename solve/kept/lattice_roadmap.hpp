@@ -49,7 +49,6 @@ struct KeptCells {
   std::vector<Segment> rim_;  // a unit of each side: the reference point stays in the box of all walls
 };
 
-/// Is it a maze, and nothing else?
 inline bool is_nothing_but_maze(const Scene& scene) {
   return scene.maze && !scene.bounds && scene.polygons.empty() && !scene.map && !has_solids(scene);
 }

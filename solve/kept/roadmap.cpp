@@ -80,7 +80,6 @@ std::vector<StateKey> sorted_states(const RoadmapParts& parts, const Execution& 
   return states;
 }
 
-/// How many states only one of the two has.
 void compare_states(const RoadmapParts& before, const RoadmapParts& now, const Execution& execution,
                     UpdateAccount& account) {
   const std::vector<StateKey> old_states = sorted_states(before, execution);

@@ -57,16 +57,9 @@ constexpr ElementType element_type() {
   return {{sizeof(T) == 1 ? '|' : '<', letter, static_cast<char>('0' + sizeof(T)), '\0'}};
 }
 
-// Where everything stands in a .roadmap file, said once for whoever writes and whoever reads; docs/file_formats.md has
-// it as a table of bytes.
-//
-//   FixedHeader | SectionEntry, one a section | checksum of each block, section by section | zeros | checksum of all
-//   this section, zeros to the next multiple of 64 | section, zeros | ...
-//
-// The sections stand in the order of their entries and each begins where the one before it has ended, so that a file's
-// content has one layout alone: nothing can overlap, and no byte is without a checksum or a rule. A section is checked
-// in blocks of 1 MiB, the last one shorter; the checksums of blocks are covered by that of the header, so the header's
-// is one of the whole file.
+// Where everything stands in a .roadmap file, as docs/file_formats.md has it: FixedHeader, a SectionEntry a section, a
+// checksum a block, zeros, the checksum of all this, the sections. Each begins where the one before it has ended, so
+// that a file's content has one layout alone.
 
 static_assert(std::endian::native == std::endian::little, "numbers are copied as they lie in the file");
 
@@ -122,7 +115,6 @@ constexpr std::size_t aligned(std::size_t bytes) {
   return (bytes + section_alignment - 1) / section_alignment * section_alignment;
 }
 
-/// Bytes of the whole header, its checksum included.
 constexpr std::size_t header_bytes(std::size_t sections, std::size_t blocks) {
   return aligned(sizeof(FixedHeader) + sections * sizeof(SectionEntry) + (blocks + 1) * sizeof(std::uint64_t));
 }

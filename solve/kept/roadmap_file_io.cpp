@@ -52,7 +52,6 @@ RawVector<T> copied(std::span<const T> numbers, const Execution& execution) {
   return {numbers.begin(), numbers.end()};
 }
 
-/// The file's arrays where they are, checked.
 RoadmapParts checked_parts(const RoadmapFile& file, const Roadmap& roadmap, const Execution& execution) {
   const RoadmapParts parts{.dimension = roadmap.arrays.dimension,
                            .directed = roadmap.arrays.directed,
@@ -432,7 +431,6 @@ void read_meta(const std::string& where, std::string_view text, Roadmap& roadmap
   roadmap.arrays.directed = json.value("directed", Json(false)) == Json(true);
 }
 
-/// All that meta says.
 Roadmap described(const RoadmapFile& file, const Execution& execution) {
   refuse_unknown_sections(file);
   Roadmap roadmap;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solve/kept/roadmap_formats_io.hpp"
+#include "solve/kept/export_roadmap.hpp"
 
 #include <fmt/compile.h>
 #include <fmt/format.h>
@@ -15,7 +15,6 @@
 #include "planners/roadmap/milestones.hpp"
 #include "scenes/files/npy_io.hpp"
 #include "scenes/text/json_text.hpp"
-#include "solve/kept/export_roadmap.hpp"
 #include "solve/kept/roadmap_query.hpp"
 
 namespace warren {
@@ -78,7 +77,6 @@ class ExportedEdgesView {
   }
 
   std::uint64_t count() const { return numbers_.back(); }  ///< of lines: with EdgeWays::both two an undirected edge
-  /// How many are written, and how many are not.
   const ExportAccount& account() const { return account_; }
   /// Edge ends of the roadmap, written or not.
   std::size_t ends() const { return parts_.to.size(); }
@@ -178,7 +176,8 @@ class ExportedEdgesView {
   ExportAccount account_;
 };
 
-/// A roadmap and where it goes; the formats. All throw InputError for a length that is no number, and as OutputFile.
+/// A roadmap and where it goes; what each format holds: docs/file_formats.md, "Exports". All throw InputError for a
+/// length that is no number, and as OutputFile.
 struct RoadmapExport {
   const RoadmapParts& parts;
   const ExportOptions& options;
@@ -368,8 +367,6 @@ void append_fields(std::string& text, Fields... fields) {
 
 std::uint16_t size_16(std::string_view text) { return static_cast<std::uint16_t>(text.size()); }
 
-/// Two tables: vertices (id,x,y[,theta] or q1..qn,component) and edges (from,to,length,state), one line of names above
-/// each. Undirected edges stand once, from the smaller vertex.
 void RoadmapExport::csv() const {
   file.write(fmt::format("id,{},component\n", fmt::join(state_names(parts.dimension), ",")));
   each_vertex(file, [&](std::size_t v, ExportedState state, auto out) {
@@ -383,9 +380,7 @@ void RoadmapExport::csv() const {
   });
 }
 
-/// For Graphviz: `neato -n roadmap.dot -Tsvg`. Vertices stand where they are (pos, with ! so that neato leaves them
-/// there), edges have their length (len), unchecked ones are dashed. Headings and joints are attributes by their names;
-/// an arm's vertices have no pos. Numbers are quoted: a bare numeral of the language has no exponent.
+/// Numbers are quoted: a bare numeral of the language has no exponent.
 void RoadmapExport::dot() const {
   file.write(parts.directed ? "digraph roadmap {\n" : "graph roadmap {\n");
   file.write("node [shape=point];\n");
@@ -407,9 +402,7 @@ void RoadmapExport::dot() const {
   file.write("}\n");
 }
 
-/// The formats of the 9th DIMACS implementation challenge (shortest paths, 2006): arcs with whole weights (.gr) and
-/// whole coordinates (.co), vertices numbered from 1. Undirected edges are two arcs. Comment lines name the units. Of a
-/// state the plane's x and y are written, of an arm's all joints. Computes each length twice, first to find the
+/// The 9th DIMACS implementation challenge (shortest paths, 2006). Computes each length twice, first to find the
 /// longest.
 void RoadmapExport::dimacs() const {
   const std::size_t vertices = parts.vertex_count();
@@ -428,12 +421,8 @@ void RoadmapExport::dimacs() const {
   });
 }
 
-/// A route graph of Nav2, by the rules of its loader (nav2_route's GeoJsonGraphFileLoader): nodes are Points with id
-/// and frame, edges MultiLineStrings with id, startid, endid and cost, the length. Edges are directed, so an undirected
-/// one stands twice. An id is given once, be it a node's or an edge's: node v has id v, edge i has vertex_count + i.
-/// Headings are metadata of nodes, "state": "unchecked" of edges that are. One feature a line. Nav2 holds coordinates
-/// and costs as floats and ids in 32 bits. Metadata keep the point of whole numbers: Nav2 tells the type of a value by
-/// it.
+/// By the rules of nav2_route's GeoJsonGraphFileLoader. Metadata keep the point of whole numbers: it tells the type of
+/// a value by that.
 void RoadmapExport::geojson() const {
   file.write("{\"type\":\"FeatureCollection\",\"name\":\"graph\",\"features\":[\n");
   const std::string frame = json_string(options.frame);
@@ -457,7 +446,6 @@ void RoadmapExport::geojson() const {
   file.write("]}\n");
 }
 
-/// Nodes with x, y, theta or q1..qn and component, edges with length and state. http://graphml.graphdrawing.org
 void RoadmapExport::graphml() const {
   file.write("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<graphml xmlns=\"http://graphml.graphdrawing.org/xmlns\">\n");
   const auto key = [&](std::string_view name, std::string_view of, std::string_view type) {
@@ -486,9 +474,6 @@ void RoadmapExport::graphml() const {
   file.write("</graph>\n</graphml>\n");
 }
 
-/// For SciPy and NumPy: the matrix of lengths in compressed rows as scipy.sparse.load_npz reads it (indices, indptr,
-/// format, shape, data; both ways of an undirected edge), and by numpy.load also `states` (vertex_count x dimension),
-/// `component`, and where unchecked edges are asked for `edge_states`, one a length: 0 unchecked, 1 free.
 void RoadmapExport::npz() const { NpzWriter(*this).write(); }
 
 }  // namespace

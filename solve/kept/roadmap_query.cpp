@@ -18,7 +18,6 @@
 #include "solve/kinds/lower_bound.hpp"
 #include "solve/kinds/question_of_pose.hpp"
 #include "solve/kinds/solve_steps.hpp"
-#include "solve/question/planner_choice.hpp"
 #include "verify/streamed/verify_cells.hpp"
 #include "worlds/plane/maze_world.hpp"
 
@@ -37,7 +36,7 @@ constexpr std::size_t most_indexed_walls = std::size_t{1} << 23;
 
 /// An index is not searched.
 void refuse_search(const RoadmapSearchFields& how) {
-  if (how.search || how.queue || how.attach || how.heuristic) {
+  if (how.search || how.queue || how.roadmap.attach || how.heuristic) {
     throw UsageError(fmt::format("@{}: this roadmap is asked by its index; build it with @index none to search it",
                                  how.search      ? "search"
                                  : how.queue     ? "queue"
@@ -101,7 +100,6 @@ std::optional<CellId> lattice_cell(const RouteIndex& index, Vec2 p) {
   return index.passages().open_at(col, row) != 0 ? std::optional(row * size.cols + col) : std::nullopt;
 }
 
-/// The shortest way over the lattice between any two places.
 class LatticeQuestion {
  public:
   /// `query`: of the index. All are referred to. Throws Stopped.
@@ -285,14 +283,8 @@ Answer RoadmapQuery::ask_within(const std::vector<double>& start, const std::vec
   const Question question = question_to_one(roadmap_, start, goal);
   if (roadmap_.lattice != nullptr) return ask_lattice(question, how, execution, scratch);
   SolveOptions options = roadmap_.options;
-  options.search = how.search;
-  options.queue = how.queue;
-  options.heuristic = how.heuristic;
-  options.optimise = how.optimise;
-  options.bound = how.bound;
-  options.car.cusp_cost = how.cusp_cost;
-  options.car.reverse_cost = how.reverse_cost;
-  if (how.attach) options.roadmap.attach = how.attach;
+  for (const Option option : question_options.members()) copy_option(option, options, how);
+  if (how.roadmap.attach) options.roadmap.attach = how.roadmap.attach;
   options.validate();
   check_solver_options(options);
   const Scene& scene = roadmap_.world.whole(execution);
@@ -329,24 +321,24 @@ const KeptCells* RoadmapQuery::cells_of_lattice(const Execution& execution) cons
   return walls_->cells.get(execution, make).get();
 }
 
-const ObstacleIndex* RoadmapQuery::judge_of_lattice(const Execution& execution) const {
+PointJudge RoadmapQuery::judge_of_lattice(const WallProblem& problem, const Execution& execution) const {
+  if (const KeptCells* cells = cells_of_lattice(execution)) {
+    return {roadmap_.world.outline(), problem, execution, nullptr, cells->walls.get()};
+  }
   const Scene& scene = roadmap_.world.whole(execution);
-  if (questions_ == Questions::one || scene.walls.size() > most_indexed_walls) return nullptr;
-  return &walls_->judged.get(execution, [&] { return std::make_unique<ObstacleIndex>(scene, execution); });
+  const auto make = [&] { return std::make_unique<ObstacleIndex>(scene, execution); };
+  const bool is_indexed = questions_ != Questions::one && scene.walls.size() <= most_indexed_walls;
+  return {scene, problem, execution, is_indexed ? &walls_->judged.get(execution, make) : nullptr};
 }
 
 void RoadmapQuery::prepare_paths(const Execution& execution) const {
-  if (roadmap_.lattice == nullptr || cells_of_lattice(execution) != nullptr) return;
-  judge_of_lattice(execution);
+  if (roadmap_.lattice != nullptr) judge_of_lattice({}, execution);
 }
 
 double RoadmapQuery::clearance_at(Vec2 place, const Execution& execution) const {
   const VerifyOptions options{.radius = roadmap_.robot.radius, .clearance = roadmap_.clearance};
-  if (const KeptCells* cells = cells_of_lattice(execution)) {
-    return verify_steps(*cells->walls, {&place, 1}, options, execution).min_clearance;
-  }
-  const ObstacleIndex* judged = judge_of_lattice(execution);
-  return verify_path(roadmap_.world.whole(execution), {&place, 1}, options, execution, judged).min_clearance;
+  const WallProblem any;
+  return judge_of_lattice(any, execution).judged({&place, 1}, options).min_clearance;
 }
 
 void RoadmapQuery::expect(const std::vector<double>& place, const Execution& execution) const {
@@ -390,29 +382,17 @@ Answer RoadmapQuery::ask_lattice(const Question& question, const RoadmapSearchFi
 
 void RoadmapQuery::settle_and_verify(Answer& answer, const WallProblem& problem, bool optimise,
                                      const Execution& execution, const QuestionScratch& scratch) const {
-  const KeptCells* cells = cells_of_lattice(execution);
-  const Scene& outline = roadmap_.world.outline();
-  answer.world = account_of(cells != nullptr ? outline : roadmap_.world.whole(execution), roadmap_.world_hash);
-  if (cells != nullptr) answer.world.walls = cells->wall_count;
+  const PointJudge judge = judge_of_lattice(problem, execution);
+  answer.world = account_of(judge.scene, roadmap_.world_hash);
+  if (judge.cells != nullptr) answer.world.walls = cells_of_lattice(execution)->wall_count;
   if (optimise && answer.outcome == Outcome::solved) {
     shorten(answer, roadmap_.world.whole(execution), problem, execution);
   }
-  if (cells == nullptr) {
-    const Scene& scene = roadmap_.world.whole(execution);
-    const ObstacleIndex* judged = judge_of_lattice(execution);
-    settle_blocked_ends(answer, scene, problem, execution, judged);
-    return verify_solved(answer, scene, problem, execution, judged);
-  }
-  const auto stands_free = [&](Vec2 p) {
-    return verify_steps(*cells->walls, std::span(&p, 1), end_options(problem), execution).verified;
-  };
-  answer.outcome = settled_ends(
-      answer.outcome, [&] { return stands_free(problem.start); }, [&] { return stands_free(problem.goal); });
+  answer.outcome = judge.settled(answer.outcome);
   if (answer.outcome != Outcome::solved) return;
   double seconds = 0.0;
-  const Verification verdict = judged_beside(scratch.beside_judge, answer, execution, seconds, [&] {
-    return verify_steps(*cells->walls, answer.path, verify_options(problem), execution);
-  });
+  const Verification verdict = judged_beside(scratch.beside_judge, answer, execution, seconds,
+                                             [&] { return judge.judged(answer.path, verify_options(problem)); });
   answer.seconds.verify += seconds;
   take_verdict(answer, verdict);
 }

@@ -20,19 +20,10 @@
 
 namespace warren {
 
-class ObstacleIndex;  // verify/near/obstacle_index.hpp
+struct PointJudge;  // solve/kinds/solve_steps.hpp
 
-/// What a question may say beside its ends: all else is the roadmap's.
-struct RoadmapSearchFields {
-  std::optional<SearchMethod> search = {};      ///< none: A*
-  std::optional<QueueKind> queue = {};          ///< none: heap
-  std::optional<GrowingAttach> attach = {};     ///< arms alone
-  bool optimise = false;                        ///< pull the path taut after the search
-  std::optional<double> cusp_cost = {};         ///< as CarFields has them, with optimise
-  std::optional<double> reverse_cost = {};      ///< the same
-  std::optional<HeuristicKind> heuristic = {};  ///< of A*, for points and discs; none: euclidean
-  bool bound = false;                           ///< prove the best lower bound that there is
-};
+/// What a question may say beside its ends: asked_options. All others are the roadmap's, whatever is said here.
+using RoadmapSearchFields = SolveOptions;
 
 /// What one thread keeps from one question to the next.
 struct QuestionScratch {
@@ -50,8 +41,8 @@ struct LengthAnswer {
 };
 
 /// What will be asked: one path, whose judge then passes over all obstacles; many paths, for which the judge makes bits
-/// or an index of its own first; lengths alone. Where a lattice's file says its walls, the judge looks them up there.
-enum class Questions : std::uint8_t { one, many, lengths };
+/// or an index of its own first. Where a lattice's file says its walls, the judge looks them up there.
+enum class Questions : std::uint8_t { one, many };
 
 /// Refers to the roadmap. Any number of threads may ask; while they do, learnt() is nobody's.
 class RoadmapQuery : NotCopied {
@@ -87,7 +78,6 @@ class RoadmapQuery : NotCopied {
   /// Least distance between the body at a place of a lattice and any wall, by the judge of its paths. Throws Stopped,
   /// InputError.
   double clearance_at(Vec2 place, const Execution& execution) const;
-  /// That it refers to.
   const Roadmap& roadmap() const { return roadmap_; }
   /// Length of the motion between two of the roadmap's states, in the world's metric.
   double distance(VertexId from, VertexId to) const;
@@ -101,9 +91,8 @@ class RoadmapQuery : NotCopied {
                      QuestionScratch& scratch) const;
   /// nullptr where the walls can't be looked up.
   const KeptCells* cells_of_lattice(const Execution& execution) const;
-  /// nullptr where a pass over all obstacles does.
-  const ObstacleIndex* judge_of_lattice(const Execution& execution) const;
-  /// The judge's part of ask_lattice(), by one of the three.
+  /// By walls that are looked up, by an index, or by a pass over all obstacles.
+  PointJudge judge_of_lattice(const WallProblem& problem, const Execution& execution) const;
   void settle_and_verify(Answer& answer, const WallProblem& problem, bool optimise, const Execution& execution,
                          const QuestionScratch& scratch) const;
   const Roadmap& roadmap_;

@@ -47,7 +47,6 @@ void add_point(std::vector<double>& numbers, const std::optional<Vec2>& point) {
 
 std::optional<Vec2> point_of(double x, double y) { return x == x && y == y ? std::optional(Vec2{x, y}) : std::nullopt; }
 
-/// As walls of this kind.
 template <class Wall, class T>
 WallSet walls_as(std::span<const T> numbers, const Execution& execution) {
   execution.reserve(numbers.size() / 4 * sizeof(Wall));

@@ -59,7 +59,6 @@ void check_lattice(const RoadmapFile& file, const RouteIndex& index, const Execu
 void append_world_sections(const Scene& scene, const LatticePassages* lattice, HeldNumbers& held,
                            std::vector<RoadmapSection>& sections, const Execution& execution);
 
-/// Is there a world in the file?
 inline bool has_world(const RoadmapFile& file) { return file.find("world.text") != nullptr; }
 /// The world, but for its source and walls. Throws InputError for sections that contradict each other, Stopped.
 Scene read_world_outline(const RoadmapFile& file, const Execution& execution);

@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Kept roadmaps of the planners that draw no samples: visibility (corners and who sees whom; for what keeps a distance
-// those that it can go around), cells (the middles of
-// doors, and those of one cell joined), voronoi (the medial axis as straight lines; on maps the skeleton's). A question
-// needs more than such a graph: that is made anew from the world when the roadmap is opened, and a file whose graph is
-// not the one that follows from its world is refused. Only the edges of a visibility graph of more than 1000 corners,
-// which take far longer to find than to read, are taken from the file as they are.
+// Kept roadmaps of the planners that draw no samples; what their graphs are: docs/file_formats.md, "What a roadmap is".
+// A question needs more than such a graph: that is made anew from the world when the roadmap is opened, and a file
+// whose graph is not the one that follows from its world is refused, but for the edges of a large visibility graph.
 #pragma once
 
 #include <memory>
 #include <optional>
 #include <type_traits>
 
-#include "planners/axis/medial_axis_planner.hpp"
 #include "planners/grid/skeleton_planner.hpp"
 #include "planners/vertical_cells/cell_planner.hpp"
 #include "planners/visibility/visibility_graph.hpp"

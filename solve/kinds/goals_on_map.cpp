@@ -18,7 +18,6 @@
 namespace warren {
 namespace {
 
-/// One question's decisions, in their order.
 class Choosing {
  public:
   Choosing(WaysOverCells& ways, const OccupancyMap& map, const WallProblem& problem, bool open_end)
@@ -86,7 +85,6 @@ class Choosing {
     return std::nullopt;
   }
 
-  /// The place that is nearest to any of the goals.
   std::optional<std::pair<WaysOverCells::Nearest, std::size_t>> nearest() {
     std::optional<std::pair<WaysOverCells::Nearest, std::size_t>> best;
     for (std::size_t i = 0; i < goals_.size(); ++i) {
@@ -238,17 +236,24 @@ OccupancyMap with_cells(const OccupancyMap& map, const Bitmap& blocked) {
 
 class Routes {
  public:
-  Routes(const RouteRule& route, const RoutesAsked& asked, const Execution& execution)
-      : asked_(asked),
+  using LegParts = std::function<PriceParts(Vec2, Vec2)>;
+
+  Routes(const RouteRule& route, WaysOverCells& ways, Vec2 goal, const DistanceField* distances, const LegParts& parts,
+         const Execution& execution)
+      : ways_(ways),
+        map_(ways.map()),
+        problem_(ways.problem()),
+        parts_(parts),
         execution_(execution),
         stretch_(route.stretch.value_or(usual_stretch)),
-        hole_(route.hole.value_or(2.0 * asked.problem.robot.radius)),
-        cuts_(asked.wide, hole_ / asked.map.cell * (1.0 - 1e-12), execution),
-        closed_(with_cells(asked.map, asked.closed)),
-        world_(asked.distances != nullptr ? GridWorld(closed_, asked.problem.reach(), *asked.distances)
-                                          : GridWorld(closed_, asked.problem.reach(), execution, MapMilestones::none)) {
-    if (asked.problem.reach() > 0.0) {
-      holes_.emplace(with_cells(asked.map, cuts_.cells()), 0.0, execution, MapMilestones::none);
+        hole_(route.hole.value_or(2.0 * problem_.robot.radius)),
+        cuts_(ways.wide(), hole_ / map_.cell * (1.0 - 1e-12), execution),
+        closed_(with_cells(map_, ways.closed())),
+        world_(distances != nullptr ? GridWorld(closed_, problem_.reach(), *distances)
+                                    : GridWorld(closed_, problem_.reach(), execution, MapMilestones::none)) {
+    problem_.goal = goal;
+    if (problem_.reach() > 0.0) {
+      holes_.emplace(with_cells(map_, cuts_.cells()), 0.0, execution, MapMilestones::none);
     }
   }
 
@@ -257,8 +262,7 @@ class Routes {
     std::vector<AlternativePath> paths;
     if (auto path = verified(plain)) paths.push_back(std::move(*path));
     for (const ClassPath& way : over_cells(count)) {
-      if (auto path = verified(pulled_between_cells(
-              path_over_cells(asked_.map, asked_.problem.start, way.cells, asked_.problem.goal)))) {
+      if (auto path = verified(pulled_between_cells(path_over_cells(map_, problem_.start, way.cells, problem_.goal)))) {
         paths.push_back(std::move(*path));
       }
     }
@@ -278,7 +282,7 @@ class Routes {
     for (const std::int32_t id : ids) {
       const HoleCuts::Hole& cells = cuts_.holes()[as_whole<std::size_t>(id - 1)];
       const Box box{{1.0 * cells.low.x, 1.0 * cells.low.y}, {cells.high.x + 1.0, cells.high.y + 1.0}};
-      holes.push_back({as_whole<std::uint32_t>(id), world_box(asked_.map, box)});
+      holes.push_back({as_whole<std::uint32_t>(id), world_box(map_, box)});
     }
     return holes;
   }
@@ -288,17 +292,17 @@ class Routes {
  private:
   std::vector<ClassPath> over_cells(std::size_t count) {
     const auto joined = [&](Vec2 place) {
-      return cells_joined_to(asked_.map, asked_.wide, asked_.problem.reach(), place, execution_);
+      return cells_joined_to(map_, ways_.wide(), problem_.reach(), place, execution_);
     };
     // Over cells a way is longer than pulled taut, by up to 1 / cos(pi / 8): so much more may be within the stretch.
     constexpr double longer = 1.0824;
     const ClassChoice choice{count, stretch_ * longer};
-    for (const Cell goal : joined(asked_.problem.goal)) {
+    for (const Cell goal : joined(problem_.goal)) {
       const PriceField::Goal goals[] = {{goal}};
-      for (const Cell start : joined(asked_.problem.start)) {
+      for (const Cell start : joined(problem_.start)) {
         const Cell towards[] = {start};
-        PriceField field(asked_.weights, goals, towards, execution_);
-        auto found = cheapest_classes(asked_.weights, field, cuts_, start, goal, choice, execution_);
+        PriceField field(ways_.weights(), goals, towards, execution_);
+        auto found = cheapest_classes(ways_.weights(), field, cuts_, start, goal, choice, execution_);
         expanded_ += field.expanded();
         if (!found.empty()) return found;
       }
@@ -306,10 +310,9 @@ class Routes {
     return {};
   }
 
-  double cost(Vec2 a, Vec2 b) const { return asked_.prices.cost ? asked_.prices.cost(a, b) : distance(a, b); }
   std::vector<std::int32_t> word(const Path<Vec2>& path) const {
     Path<Vec2> in_cells;
-    for (const Vec2 p : path) in_cells.push_back(map_point(asked_.map, p));
+    for (const Vec2 p : path) in_cells.push_back(map_point(map_, p));
     return cuts_.word(in_cells);
   }
   bool keeps_off_holes(Vec2 a, Vec2 b) const {
@@ -320,9 +323,9 @@ class Routes {
   /// In its class: where pulling the whole leads over a hole, its halves are pulled.
   Path<Vec2> pulled(const Path<Vec2>& path) const {
     GridWorld::Query query;
-    const PricedLegs legs{[this](Vec2 a, Vec2 b) { return cost(a, b); },
+    const PricedLegs legs{[this](Vec2 a, Vec2 b) { return ways_.cost(a, b); },
                           [&](Vec2 a, Vec2 b) { return world_.is_free_motion(a, b, query) && keeps_off_holes(a, b); },
-                          asked_.map.cell};
+                          map_.cell};
     const Path<Vec2> whole = priced_taut(path, legs, execution_);
     if (path.size() < 3 || word(whole) == word(path)) return whole;
     if (path.size() < 4) return path;
@@ -350,13 +353,13 @@ class Routes {
     AlternativePath path;
     path.path = std::move(way);
     path.passed = word(path.path);
-    const Verification verdict = verify_on_map(asked_.map, path.path, verify_options(asked_.problem), execution_);
+    const Verification verdict = verify_on_map(map_, path.path, verify_options(problem_), execution_);
     if (!verdict.verified) return std::nullopt;
     path.length = verdict.length;
     path.min_clearance = verdict.min_clearance;
-    if (asked_.parts) {
+    if (parts_) {
       for (std::size_t i = 1; i < path.path.size(); ++i) {
-        const PriceParts leg = asked_.parts(path.path[i - 1], path.path[i]);
+        const PriceParts leg = parts_(path.path[i - 1], path.path[i]);
         path.price.clearance += leg.clearance;
         path.price.areas += leg.areas;
       }
@@ -370,7 +373,7 @@ class Routes {
   void keep_one_a_class(std::vector<AlternativePath>& paths) const {
     std::vector<Path<Vec2>> all;
     for (const AlternativePath& path : paths) all.push_back(path.path);
-    const ClassRule rule{asked_.problem.reach(), hole_};
+    const ClassRule rule{problem_.reach(), hole_};
     JudgedClasses judged = judged_classes(closed_, rule, all, execution_);
     for (auto* classes : {&judged.classes, &judged.told}) {
       while (const auto same = same_class(*classes)) {
@@ -382,7 +385,10 @@ class Routes {
     if (paths.size() + 1 < all.size()) throw std::logic_error("two alternatives are of one class by the judge's cuts");
   }
 
-  const RoutesAsked& asked_;
+  WaysOverCells& ways_;
+  const OccupancyMap& map_;
+  WallProblem problem_;  // its goal is the one that is reached
+  const LegParts& parts_;
   const Execution& execution_;
   double stretch_;
   double hole_;
@@ -421,15 +427,17 @@ void take_bound_of_choice(Answer& answer, std::optional<double> bound) {
   if (answer.ended_by == "gap") answer.ended_by = "goal_gap";
 }
 
-void take_alternatives(Answer& answer, const RouteRule& route, const RoutesAsked& asked, const Execution& execution) {
-  const GoalRule& rule = asked.problem.rule;
+void take_alternatives(Answer& answer, const RouteRule& route, WaysOverCells& ways, const DistanceField* distances,
+                       const std::function<PriceParts(Vec2, Vec2)>& parts, const Execution& execution) {
+  const GoalRule& rule = ways.problem().rule;
   if (!rule.visit.empty() || rule.back || rule.region) {
     throw UsageError(
         "@alternatives: are of ways from a start to a goal; places to visit and regions leave no such two");
   }
-  if (asked.problem.start == asked.problem.goal) return;
-  const StageTimer timer(execution, "alternatives", answer.seconds.optimise, asked.map.blocked.size());
-  Routes routes(route, asked, execution);
+  const Vec2 goal = answer.path.back();
+  if (ways.problem().start == goal) return;
+  const StageTimer timer(execution, "alternatives", answer.seconds.optimise, ways.map().blocked.size());
+  Routes routes(route, ways, goal, distances, parts, execution);
   std::vector<AlternativePath> paths = routes.find(std::size_t{1} + *route.alternatives, answer.path);
   answer.counters.expanded += routes.expanded();
   if (paths.empty()) return;
@@ -439,7 +447,7 @@ void take_alternatives(Answer& answer, const RouteRule& route, const RoutesAsked
   answer.length = own.length;
   answer.min_clearance = own.min_clearance;
   answer.passed = std::move(own.passed);
-  if (asked.parts) {
+  if (parts) {
     answer.price = own.price;
     answer.cost = own.cost;
   }

@@ -60,12 +60,9 @@ class WaysOverCells {
     Vec2 place;
     std::size_t goal = 0;  ///< its number among those that were asked
   };
-  /// By a cell to whose middle the place is joined.
   Entry entry(Vec2 place, Cell cell, std::size_t goal) const {
     return {cell, leg_cost(place, cell_centre(map_, cell)), place, goal};
   }
-  /// Of a place: a point's own cell; a disc may fit where it stands and not at the middle of its cell, but at one of
-  /// those around it.
   std::vector<Entry> entries(Vec2 place, std::size_t goal = 0) const {
     std::vector<Entry> entries;
     for (const Cell cell : cells_joined_to(map_, wide_, problem_.reach(), place, execution_)) {
@@ -216,6 +213,12 @@ class WaysOverCells {
   }
 
   bool stands_free(Vec2 place) const { return stands_free_on_map(map_, problem_, place, execution_); }
+  /// Of a straight leg, its length included.
+  double cost(Vec2 a, Vec2 b) const { return prices_.cost ? prices_.cost(a, b) : distance(a, b); }
+  const OccupancyMap& map() const { return map_; }
+  const WallProblem& problem() const { return problem_; }
+  const Bitmap& closed() const { return closed_; }
+  const Bitmap& wide() const { return wide_; }
   std::uint64_t expanded() const { return expanded_; }
   /// Of the steps, known so far.
   StepWeights& weights() { return weights_; }
@@ -234,8 +237,7 @@ class WaysOverCells {
     return {inside(to.x, cell.x), inside(to.y, cell.y)};
   }
   std::uint64_t leg_cost(Vec2 a, Vec2 b) const {
-    const double cost = prices_.cost ? prices_.cost(a, b) : distance(a, b);
-    return static_cast<std::uint64_t>(std::ceil(cost / map_.cell * static_cast<double>(units_a_cell)));
+    return static_cast<std::uint64_t>(std::ceil(cost(a, b) / map_.cell * static_cast<double>(units_a_cell)));
   }
   Bitmap cells_from_start(StepWeights& weights, std::span<const PriceField::Goal> from) {
     PriceField field(weights, from, {}, execution_);
@@ -297,7 +299,6 @@ class WaysOverCells {
   std::uint64_t expanded_ = 0;
 };
 
-/// What is decided of a question.
 struct GoalChoice {
   Outcome outcome = Outcome::not_connected;  ///< solved: cells join all of it
   Vec2 goal;                                 ///< where the path shall end
@@ -326,21 +327,11 @@ inline double off_goal(const Answer& answer) { return answer.goal_reached ? answ
 /// best, and how near to it the path is.
 void take_bound_of_choice(Answer& answer, std::optional<double> bound);
 
-/// What a solve over cells holds when it has found a path.
-struct RoutesAsked {
-  const OccupancyMap& map;                      ///< as the question closes and opens it
-  const WallProblem& problem;                   ///< its goal is the one that is reached
-  const Bitmap& closed;                         ///< cells that the body may not touch
-  const Bitmap& wide;                           ///< cells where its middle may not be
-  StepWeights& weights;                         ///< of steps between the others
-  const DistanceField* distances;               ///< of the closed cells; nullptr: not made
-  LegPrices prices;                             ///< empty: ways cost their length
-  std::function<PriceParts(Vec2, Vec2)> parts;  ///< of a leg, where there are prices
-};
-
 /// Takes the cheapest of the paths as the answer's own, and the others as its alternatives, all of them verified, of
 /// different classes by the judge's own cuts. answer: has the path that is found without alternatives, which is never
-/// cheaper than what is taken. Throws UsageError where the question has stops or a region, Stopped.
-void take_alternatives(Answer& answer, const RouteRule& route, const RoutesAsked& asked, const Execution& execution);
+/// cheaper than what is taken. distances: of the closed cells; nullptr: not made. parts: of a leg's price; empty: ways
+/// cost their length. Throws UsageError where the question has stops or a region, Stopped.
+void take_alternatives(Answer& answer, const RouteRule& route, WaysOverCells& ways, const DistanceField* distances,
+                       const std::function<PriceParts(Vec2, Vec2)>& parts, const Execution& execution);
 
 }  // namespace warren

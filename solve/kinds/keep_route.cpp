@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solve/kinds/keep_route.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 #include "core/plane/se2.hpp"
 #include "solve/kinds/question_of_pose.hpp"
 #include "solve/kinds/solve_steps.hpp"
+#include "solve/kinds/solve_to_goal.hpp"
 #include "solve/question/question_of_arm.hpp"
 
 namespace warren {

@@ -25,26 +25,25 @@ const PlannerChoice* choice_in(const SolveKind& kind, PlannerKind planner) {
 
 // Stops on the way are for every planner of a world that is held: solve_to_goal() plans from one to the next.
 
-bool takes(const SolveKind& kind, const PlannerChoice& choice, Option option) {
-  return choice.options.has(option) || (option == Option::via && !kind.unmade);
+bool takes(const SolveKind& kind, const PlannerChoice* choice, Option option) {
+  return choice != nullptr && (choice->options.has(option) || (option == Option::via && !kind.unmade));
 }
-bool takes(const SolveKind& kind, const PlannerChoice& choice, AskedWord word) {
-  return choice.words.has(word) || (word == AskedWord::visit && !kind.unmade);
+bool takes(const SolveKind& kind, const PlannerChoice* choice, AskedWord word) {
+  return choice != nullptr && (choice->words.has(word) || (word == AskedWord::visit && !kind.unmade));
 }
 
-/// Does any planner of the kind?
 template <class Word>
 bool is_taken(const SolveKind& kind, Word word) {
-  return std::ranges::any_of(kind.planners, [&](const PlannerChoice& choice) { return takes(kind, choice, word); });
+  return std::ranges::any_of(kind.planners, [&](const PlannerChoice& choice) { return takes(kind, &choice, word); });
 }
 
 /// Does the planner of this kind take all of it? solve() keeps routes, whoever plans.
-bool takes_all(const SolveKind& kind, const PlannerChoice& choice, AskedWords words, const SolveOptions& options) {
+bool takes_all(const SolveKind& kind, const PlannerChoice* choice, AskedWords words, const SolveOptions& options) {
   const std::vector<AskedWord> asked = words.members();
   const std::vector<Option> wanted = given(options).members();
-  return std::ranges::all_of(asked,
-                             [&](AskedWord word) { return takes(kind, choice, word) || word == AskedWord::keep_to; }) &&
-         std::ranges::all_of(wanted, [&](Option option) { return takes(kind, choice, option); });
+  const auto takes_word = [&](AskedWord word) { return takes(kind, choice, word) || word == AskedWord::keep_to; };
+  const auto takes_option = [&](Option option) { return takes(kind, choice, option); };
+  return choice != nullptr && std::ranges::all_of(asked, takes_word) && std::ranges::all_of(wanted, takes_option);
 }
 
 /// "a", "a and b", "a, b and c": of words or planners.
@@ -62,21 +61,19 @@ std::string listed(const std::vector<Word>& words) {
   return text;
 }
 
-/// The planners of all kinds for which `holds` is true of some choice, in their order.
 template <class Holds>
 std::vector<PlannerKind> planners_where(const Holds& holds) {
   std::vector<PlannerKind> planners;
   for (const PlannerKind planner : all_planners) {
     const bool any = std::any_of(solve_kinds().begin(), solve_kinds().end(), [&](const SolveKind& kind) {
       const PlannerChoice* choice = choice_in(kind, planner);
-      return choice != nullptr && holds(kind, *choice);
+      return choice != nullptr && holds(kind, choice);
     });
     if (any) planners.push_back(planner);
   }
   return planners;
 }
 
-/// Of the kinds that fit a problem, each planner once.
 std::vector<PlannerKind> planners_of(const std::vector<const SolveKind*>& kinds) {
   std::vector<PlannerKind> planners;
   for (const SolveKind* kind : kinds) {
@@ -89,7 +86,7 @@ std::vector<PlannerKind> planners_of(const std::vector<const SolveKind*>& kinds)
 
 template <class Word>
 std::vector<PlannerKind> takers_of(Word word) {
-  return planners_where([&](const SolveKind& kind, const PlannerChoice& choice) { return takes(kind, choice, word); });
+  return planners_where([&](const SolveKind& kind, const PlannerChoice* choice) { return takes(kind, choice, word); });
 }
 
 std::string takers_text(const std::vector<PlannerKind>& takers) {
@@ -107,12 +104,12 @@ struct Asked {
 template <class Word>
 std::string takers_text(Word word, const std::vector<const SolveKind*>& fitting, const Asked& asked) {
   const auto fits = [&](const SolveKind& kind) { return std::ranges::count(fitting, &kind) > 0; };
-  const auto whole = planners_where([&](const SolveKind& kind, const PlannerChoice& choice) {
+  const auto whole = planners_where([&](const SolveKind& kind, const PlannerChoice* choice) {
     return fits(kind) && takes_all(kind, choice, asked.words, asked.options);
   });
   if (!whole.empty()) return takers_text(whole);
   const auto here = planners_where(
-      [&](const SolveKind& kind, const PlannerChoice& choice) { return fits(kind) && takes(kind, choice, word); });
+      [&](const SolveKind& kind, const PlannerChoice* choice) { return fits(kind) && takes(kind, choice, word); });
   if (!here.empty()) return takers_text(here) + ", but not with all else that is asked";
   const std::vector<PlannerKind> all = takers_of(word);
   if (all.empty()) return "no planner of this version takes it";
@@ -123,30 +120,18 @@ std::string takers_text(Word word, const std::vector<const SolveKind*>& fitting,
   return fmt::format("{} for {}", takers_text(all), listed(problems));
 }
 
-/// Refuses the options that the planner takes in none of `kinds`, which all have it; `fitting` are the kinds of the
-/// problem and `words` what is asked for, where that is known.
-void refuse_ignored(const SolveOptions& options, PlannerKind planner, const std::vector<const SolveKind*>& kinds,
-                    const std::vector<const SolveKind*>& fitting = {}, const AskedWords& words = {}) {
-  for (const Option option : given(options).members()) {
-    if (std::ranges::any_of(kinds, [&](const SolveKind* kind) {
-          const PlannerChoice* choice = choice_in(*kind, planner);
-          return choice != nullptr && takes(*kind, *choice, option);
-        }))
-      continue;
-    if (fitting.empty()) {
-      throw UsageError(fmt::format("@{}: {} would ignore it; {}", name_of(option), name_of(planner),
-                                   takers_text(takers_of(option))));
-    }
-    throw UsageError(fmt::format("@{}: {} would ignore it for {}; {}", name_of(option), name_of(planner),
-                                 fitting.front()->problem, takers_text(option, fitting, {words, options})));
+/// Refuses the first of the options that the chosen planner would ignore, then of the words: before it one that nobody
+/// takes here.
+void refuse_ignored(const Asked& asked, const ChosenSolver& chosen, const Scene& scene, const Question& question,
+                    const std::vector<const SolveKind*>& fitting) {
+  const PlannerChoice* choice = choice_in(*chosen.kind, chosen.planner);
+  for (const Option option : given(asked.options).members()) {
+    if (takes(*chosen.kind, choice, option)) continue;
+    throw UsageError(fmt::format("@{}: {} would ignore it for {}; {}", name_of(option), name_of(chosen.planner),
+                                 fitting.front()->problem, takers_text(option, fitting, asked)));
   }
-}
-
-/// Refuses the first of the words that the planner of this kind would ignore; before it one that nobody takes here.
-void refuse_ignored_words(const Asked& asked, const SolveKind& chosen, PlannerKind planner, const Scene& scene,
-                          const Question& question, const std::vector<const SolveKind*>& fitting) {
   std::vector<AskedWord> ignored = asked.words.members();
-  std::erase_if(ignored, [&](AskedWord word) { return takes_all(chosen, *choice_in(chosen, planner), {word}, {}); });
+  std::erase_if(ignored, [&](AskedWord word) { return takes_all(*chosen.kind, choice, {word}, {}); });
   std::stable_partition(ignored.begin(), ignored.end(), [&](AskedWord word) {
     return std::ranges::none_of(fitting, [&](const SolveKind* kind) { return is_taken(*kind, word); });
   });
@@ -154,7 +139,8 @@ void refuse_ignored_words(const Asked& asked, const SolveKind& chosen, PlannerKi
     const bool is_factor = word == AskedWord::keep_out_factor || word == AskedWord::unknown_factor;
     const std::string_view what = is_factor ? "its factor" : word == AskedWord::goal_heading ? "its angle" : "it";
     throw UsageError(fmt::format("{}: {} would ignore {} for {}; {}", place_of_word(word, scene, question),
-                                 name_of(planner), what, fitting.front()->problem, takers_text(word, fitting, asked)));
+                                 name_of(chosen.planner), what, fitting.front()->problem,
+                                 takers_text(word, fitting, asked)));
   }
 }
 
@@ -187,7 +173,7 @@ std::optional<PlannerKind> planner_for_words(AskedWords asked, const SolveOption
   std::optional<PlannerKind> first;
   for (const SolveKind* kind : fitting) {
     for (const PlannerChoice& choice : kind->planners) {
-      if (!takes_all(*kind, choice, asked, options)) continue;
+      if (!takes_all(*kind, &choice, asked, options)) continue;
       if (choice.planner == usual) return usual;
       if (!first) first = choice.planner;
     }
@@ -214,15 +200,16 @@ void check_corridors(const SolveOptions& options, const Scene& scene) {
 void check_solver_options(const SolveOptions& options) {
   const std::optional<PlannerKind> asked = options.planner;
   if (asked) {
-    std::vector<const SolveKind*> kinds;
-    for (const SolveKind& kind : solve_kinds()) {
-      if (choice_in(kind, *asked) != nullptr) kinds.push_back(&kind);
-    }
-    if (kinds.empty()) {
+    const auto has_it = [&](const SolveKind& kind) { return choice_in(kind, *asked) != nullptr; };
+    if (std::ranges::none_of(solve_kinds(), has_it)) {
       throw UsageError(fmt::format("@planner: {} is none that this version has; it has {}", name_of(*asked),
                                    listed(planners_there_are())));
     }
-    refuse_ignored(options, *asked, kinds);
+    for (const Option option : given(options).members()) {
+      if (planner_takes(*asked, option)) continue;
+      throw UsageError(
+          fmt::format("@{}: {} would ignore it; {}", name_of(option), name_of(*asked), takers_text(takers_of(option))));
+    }
   }
   if (!asked || is_roadmap_planner(*asked)) check_planner_options(options);
 }
@@ -240,14 +227,13 @@ ChosenSolver choose_solver(const SolveOptions& options, const Scene& scene, cons
   ChosenSolver chosen{&first, asked.value_or(usual)};
   const auto has_it = [&](const SolveKind* kind) { return choice_in(*kind, chosen.planner) != nullptr; };
   const auto takes_it = [&](const SolveKind* kind) {
-    return has_it(kind) && takes_all(*kind, *choice_in(*kind, chosen.planner), words, options);
+    return takes_all(*kind, choice_in(*kind, chosen.planner), words, options);
   };
   auto found = std::ranges::find_if(fitting, takes_it);
   if (found == fitting.end()) found = std::ranges::find_if(fitting, has_it);
   if (found == fitting.end()) refuse_planner(chosen.planner, fitting);
   chosen.kind = *found;
-  refuse_ignored(options, chosen.planner, {chosen.kind}, fitting, words);
-  refuse_ignored_words({words, options}, *chosen.kind, chosen.planner, scene, question, fitting);
+  refuse_ignored({words, options}, chosen, scene, question, fitting);
   check_corridors(options, scene);
   return chosen;
 }
@@ -267,18 +253,18 @@ const SolveKind& verifying_kind(const Scene& scene, const Question& question) {
                     [](const SolveKind* kind) { return kind->verify != nullptr; });
 }
 
-bool planner_takes(PlannerKind planner, Option option) { return std::ranges::count(takers_of(option), planner) > 0; }
+bool planner_takes(PlannerKind planner, Option option) {
+  return std::ranges::any_of(solve_kinds(),
+                             [&](const SolveKind& kind) { return takes(kind, choice_in(kind, planner), option); });
+}
 
 bool planner_takes(PlannerKind planner, Option option, const Scene& scene, const Question& question) {
-  const std::vector<const SolveKind*> fitting = fitting_kinds(scene, robot_of(scene, question));
-  return std::ranges::any_of(fitting, [&](const SolveKind* kind) {
-    const PlannerChoice* choice = choice_in(*kind, planner);
-    return choice != nullptr && takes(*kind, *choice, option);
-  });
+  return std::ranges::any_of(fitting_kinds(scene, robot_of(scene, question)),
+                             [&](const SolveKind* kind) { return takes(*kind, choice_in(*kind, planner), option); });
 }
 
 std::vector<PlannerKind> planners_there_are() {
-  return planners_where([](const SolveKind&, const PlannerChoice&) { return true; });
+  return planners_where([](const SolveKind&, const PlannerChoice*) { return true; });
 }
 
 }  // namespace warren

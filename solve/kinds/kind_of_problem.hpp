@@ -112,7 +112,6 @@ struct SolveRequest {
   PathTaker* taker = nullptr;       ///< receives the path instead of the answer, where it is made in pieces
 };
 
-/// What SolveKind::build leaves behind.
 struct BuiltArrays {
   RoadmapArrays arrays;  ///< but for the components
   std::uint64_t samples = 0;
@@ -124,7 +123,6 @@ struct SolveKind {
   std::string_view problem;  ///< "a point or disc among walls"
   bool (*fits)(const Scene& scene, const RobotSpec& robot);
   std::span<const PlannerChoice> planners;  ///< empty: this version has none
-  /// The planner that is taken where none is asked for.
   PlannerKind (*usual_planner)(const SolveOptions& options, const Scene& scene, const Question& question);
   /// Solves from the world in memory to the path verified. Throws UsageError, InputError for what can't be asked; a
   /// stop is an answer. Fills in all of Answer but world, threads and peak memory.

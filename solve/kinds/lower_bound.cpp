@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -68,7 +69,6 @@ std::optional<double> shortest_way(const PlaneObstacles& obstacles, Vec2 start, 
   return below_rounding(length, found.roadmap.milestones);
 }
 
-/// What the reference point goes at least.
 double least_way(const Scene& scene, const Problem& problem, BoundEffort effort, const Execution& execution) {
   const Vec2 start{problem.start[0], problem.start[1]};
   const Vec2 goal{problem.goal[0], problem.goal[1]};
@@ -139,9 +139,9 @@ double least_turns(const ArmModel& model, const Problem& problem, const std::vec
 /// To the goal that is nearest by that.
 double least_turns(const Problem& problem, const Execution& execution) {
   const ArmModel model = arm_model_of(problem.robot, problem.clearance, execution);
-  double least = least_turns(model, problem, problem.goal);
-  for (const std::vector<double>& other : problem.rule.others)
-    least = std::min(least, least_turns(model, problem, other));
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::vector<double>& goal : problem.rule.goals(problem.goal))
+    least = std::min(least, least_turns(model, problem, goal));
   return least;
 }
 
@@ -153,7 +153,6 @@ bool ends_near(const Answer& answer) {
   return answer.goal_reached && (answer.goal_reached->distance > 0.0 || answer.problem.rule.heading_rad);
 }
 
-/// One start, one goal.
 bool has_one_way(const Problem& problem) {
   const GoalRule& rule = problem.rule;
   return rule.others.empty() && !rule.region && rule.visit.empty() && !rule.back && problem.start.size() == 2 &&

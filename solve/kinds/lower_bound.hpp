@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lower bounds, proved: no path of a problem is shorter, whoever plans it. What is proved of which body, and why:
-// docs/algorithms.md, "Lower bounds". The simple bound is a formula of start and goal; the exact one adds the shortest
-// way, among the obstacles, of a disc that the body holds however it is turned.
-//
-// Rounding: a sum of n legs is off by at most n * 2^-52 of itself, and so is a search that compares such sums. Each
-// bound is made less by four times that, n being all corners where a way over corners is the shortest, and by 2^-48, so
-// that it is below what exact arithmetic gives; lengths of car's curves and the reach of an arm, which have longer
-// formulae, by 1e-12 and 1e-9. Beyond largest_bounded_corners, and where time or memory end, the simple bound is left.
+// Lower bounds, proved: no path of a problem is shorter, whoever plans it. What is proved of which body, why, and what
+// rounding is allowed for: docs/algorithms.md, "Lower bounds"; beside it 1e-12 for lengths of car's curves and 1e-9 for
+// the reach of an arm, which have longer formulae. Beyond largest_bounded_corners, and where time or memory end, the
+// simple bound is left.
 #pragma once
 
 #include <cstddef>

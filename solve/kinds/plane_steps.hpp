@@ -12,7 +12,6 @@
 #include "core/base/solution.hpp"
 #include "core/plane/polygon.hpp"
 #include "core/plane/se2.hpp"
-#include "planners/axis/medial_axis_planner.hpp"
 #include "planners/vertical_cells/cell_planner.hpp"
 #include "scenes/scene/occupancy_map.hpp"
 #include "solve/answer/by_products.hpp"

@@ -12,10 +12,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/base/solution.hpp"
 #include "core/plane/se2.hpp"
 #include "solve/answer/answer.hpp"
-#include "solve/answer/read_answer_io.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 #include "solve/kinds/solve_steps.hpp"
 #include "solve/question/question.hpp"
@@ -38,7 +36,6 @@ struct PoseProblem {
 
   bool any_heading() const { return goal.size() == 2; }
   Se2 goal_pose() const { return {goal[0], goal[1], any_heading() ? 0.0 : goal[2]}; }
-  /// Is there nothing to do?
   bool is_at_goal() const {
     return start.position() == goal_pose().position() && (any_heading() || start.theta == goal[2]);
   }

@@ -18,7 +18,6 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "core/base/trigonometry.hpp"
 #include "core/run/execution.hpp"
 #include "parallel/sort.hpp"
 #include "planners/graph/hierarchy.hpp"
@@ -26,6 +25,7 @@
 #include "scenes/scene/scene.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 #include "solve/kinds/planned_worlds.hpp"
+#include "solve/kinds/question_of_pose.hpp"
 #include "solve/question/planner_choice.hpp"
 
 namespace warren {
@@ -66,11 +66,7 @@ RoadmapOptions roadmap_options_of(const SolveRequest& request, const Body& body)
 }
 
 /// How far from its reference point a body of the plane reaches, its clearance included.
-inline double reach_of(const Problem& problem) {
-  double radius = problem.robot.radius;
-  for (const Vec2 corner : problem.robot.outline) radius = std::max(radius, portable::hypot(corner.x, corner.y));
-  return radius + problem.clearance;
-}
+inline double reach_of(const Problem& problem) { return extent_of(problem.robot) + problem.clearance; }
 
 /// A file may say anything of its states; nobody draws one far from the world or beyond the joints' limits, and motions
 /// over there would not end. Throws InputError, Stopped.

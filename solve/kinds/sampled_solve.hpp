@@ -28,7 +28,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -115,6 +114,39 @@ class UsualBody {
   const Execution& execution_;
   const ObstacleIndex* judged_;  // of the scene, or nullptr
   Asked problem_;
+};
+
+/// A point or disc, whatever is around it. Prices: what legs cost there.
+template <class Prices>
+class PointBody : public UsualBody<WallProblem> {
+ public:
+  template <class World>
+  std::vector<Vec2> goals(const World&) const {
+    return {problem_.goal};
+  }
+  bool start_stands_free() const { return point_judge().stands_free(problem_.start); }
+  bool goal_stands_free(Vec2 goal) const { return point_judge().stands_free(goal); }
+  void take_prices(const MotionLength<Vec2>& cost) { cost_ = cost; }
+  template <class World>
+  void judge(const World&, Path<Vec2> path, Answer& answer) const {
+    answer.path = std::move(path);
+    point_judge().verify_solved(answer);
+  }
+
+ protected:
+  using UsualBody::UsualBody;
+  PointJudge point_judge() const { return {scene_, problem_, execution_, judged_}; }
+  /// where, more: as the prices take them.
+  template <class Where, class... More>
+  const MotionLength<Vec2>& price_in(const Where& where, const More&... more) {
+    if (problem_.prices.empty()) return cost_;
+    return cost_ = motion_cost(prices_.emplace(where, problem_.robot.radius, problem_.prices, more...));
+  }
+
+  MotionLength<Vec2> cost_;  // empty: nothing has a price
+
+ private:
+  std::optional<Prices> prices_;
 };
 
 template <class Body>
@@ -366,9 +398,7 @@ class SampledSolve {
   void end_limits(StopReason reason) {
     if (!enum_named<StopReason>(answer_.ended_by)) return;
     answer_.stop_reason = reason;
-    if (own_ == nullptr || own_->deadline == nullptr) return;
-    last_.emplace(std::numeric_limits<double>::infinity(), own_->deadline->memory_bytes());
-    own_->deadline = &*last_;
+    if (own_ != nullptr) untime(*own_, last_);
   }
   void plan_on_lattice() {
     if constexpr (requires { body_.on_lattice(*world_, goals_, answer_); }) {

@@ -234,7 +234,6 @@ LayerOptions layer_options(const SolveRequest& request, const PoseProblem& probl
   return options;
 }
 
-/// One solve: the steps share the question and fill in the answer.
 class LatticeSolve {
  public:
   explicit LatticeSolve(const SolveRequest& request)
@@ -329,7 +328,6 @@ class LatticeSolve {
     if (layer_options_.kind == LayerKind::report004) add("layers", std::string("report004"));
   }
 
-  /// Free states heading by heading, and how many headings differ.
   void describe_layers() {
     if (!turns()) return;
     std::vector<std::uint64_t> free;

@@ -31,38 +31,6 @@
 namespace warren {
 namespace {
 
-/// What is said of the ends where one is called blocked (solve/kinds/solve_steps.hpp): by the verification.
-Outcome settled_on_map(Outcome outcome, const OccupancyMap& map, const WallProblem& problem,
-                       const Execution& execution) {
-  const auto is_free = [&](Vec2 p) { return cell_at(map, p) && stands_free_on_map(map, problem, p, execution); };
-  return settled_ends(
-      outcome, [&] { return is_free(problem.start); },
-      [&] {
-        const bool stays_on_water = starts_on_water(map, problem.start) && cell_at(map, problem.goal);
-        return stays_on_water || is_free(problem.goal);
-      });
-}
-
-/// Verifies a solved answer and fills in length and clearance. A path that fails is a bug, std::logic_error; but for
-/// paths over_cells of a disc, which may fail on the way between an end and the middle of its cell: not_connected.
-void verify_solved_on_map(Answer& answer, const OccupancyMap& map, const WallProblem& problem, bool over_cells,
-                          const Execution& execution) {
-  if (answer.outcome != Outcome::solved) return;
-  const StageTimer timer(execution, "verify", answer.seconds.verify, answer.path.size());
-  const Verification verification = verify_on_map(map, answer.path, verify_options(problem), execution);
-  if (!verification.verified) {
-    const Violation violation = verification.first_violation.value_or(Violation{});
-    const bool at_an_end = violation.leg == 0 || violation.leg + 2 == answer.path.size();
-    // What only rounding keeps off a cell that it touches is blocked.
-    answer.outcome = settled_on_map(Outcome::start_blocked, map, problem, execution);
-    const bool may_miss = over_cells && problem.reach() > 0.0 && at_an_end;
-    if (answer.outcome == Outcome::not_connected && !may_miss) fail_verification(answer, violation);
-    answer.path.clear();
-    return;
-  }
-  take_verdict(answer, verification);
-}
-
 /// A path cut where it first comes as near to a place.
 Path<Vec2> cut_at_region(Path<Vec2> path, Vec2 place, double radius) {
   if (distance(path.front(), place) <= radius) return {path.front()};
@@ -177,7 +145,7 @@ class CellSolve {
 
  private:
   void run_to_goal() {
-    answer_.outcome = settled_on_map(Outcome::start_blocked, map_, problem_, request_.execution);
+    answer_.outcome = judge_of(request_, problem_).settled(Outcome::start_blocked);
     if (answer_.outcome != Outcome::not_connected) return;
     index();
     choose_method();
@@ -190,24 +158,19 @@ class CellSolve {
         return prove_apart(answer_, map_, closed_, problem_, {problem_.goal}, request_.execution);
     }
     if (wants_taut()) optimise();
-    verify_solved_on_map(answer_, map_, problem_, true, request_.execution);
+    judge_of(request_, problem_).verify_solved(answer_, true);
   }
-  /// Where the question asks for other ways than the cheapest.
   void add_alternatives() {
     const RouteRule& route = request_.question.route;
     if (!route.alternatives || !answer_.verified) return;
-    WallProblem reached = problem_;
-    reached.goal = answer_.path.back();
     std::function<PriceParts(Vec2, Vec2)> parts;
     if (prices_) parts = [this](Vec2 a, Vec2 b) { return prices_->parts(a, b, scratch()); };
-    const RoutesAsked asked{
-        map_, reached, closed_, blocked(), ways().weights(), distances(), leg_prices(prices_, scratch()), parts};
-    take_alternatives(answer_, route, asked, request_.execution);
+    take_alternatives(answer_, route, ways(), distances(), parts, request_.execution);
   }
 
   /// Where there is more to decide than the way to one place.
   void run_chosen() {
-    if (!stands_free_on_map(map_, problem_, problem_.start, request_.execution)) {
+    if (!judge_of(request_, problem_).stands_free(problem_.start)) {
       answer_.outcome = Outcome::start_blocked;
       return;
     }
@@ -226,7 +189,7 @@ class CellSolve {
       answer_.goal_reached->distance = distance(reached.goal, Vec2{asked[0], asked[1]});
       answer_.problem.goal = {reached.goal.x, reached.goal.y};
     }
-    verify_solved_on_map(answer_, map_, reached, true, request_.execution);
+    judge_of(request_, reached).verify_solved(answer_, true);
     if (!prices_ || !answer_.verified) return;
     answer_.lower_bound =
         bound_of_choice(problem_.start, problem_.goal, problem_.rule, has_open_end(request_), off_goal(answer_));
@@ -377,7 +340,7 @@ class CellSolve {
 
 /// For prm, lazy-prm, rrt and rrt-connect. Motions are certified against the closed squares of blocked cells, wherever
 /// between them they lead.
-class BodyOnMap : public UsualBody<WallProblem> {
+class BodyOnMap : public PointBody<MapPrices> {
  public:
   using World = GridWorld;
   static void suit(RrtOptions& options) {
@@ -385,9 +348,8 @@ class BodyOnMap : public UsualBody<WallProblem> {
   }
 
   explicit BodyOnMap(const SolveRequest& request)
-      : UsualBody(request, map_problem(request.scene, request.question)), map_(*request.scene.map) {}
+      : PointBody(request, map_problem(request.scene, request.question)), map_(*request.scene.map) {}
 
-  std::vector<Vec2> goals(const World&) const { return {problem_.goal}; }
   SamplerKind choose_sampler(const SolveOptions& options, const RoadmapOptions& roadmap) const {
     const bool free_choice = !options.sampler && !roadmap.samples;
     return free_choice && is_narrow(map_.blocked) ? SamplerKind::cell_centres : roadmap.sampler;
@@ -407,30 +369,17 @@ class BodyOnMap : public UsualBody<WallProblem> {
   bool provably_apart(const World& world, const std::vector<Vec2>&) const {
     return warren::provably_apart(world.map(), world.map().blocked, problem_, execution_);
   }
-  bool start_stands_free() const { return stands_free_on_map(map_, problem_, problem_.start, execution_); }
   bool goal_stands_free(Vec2 goal) const {
-    return starts_on_water(map_, problem_.start) || stands_free_on_map(map_, problem_, goal, execution_);
+    return starts_on_water(map_, problem_.start) || PointBody::goal_stands_free(goal);
   }
-  void take_prices(const MotionCost& cost) { cost_ = cost; }
-  const MotionCost& price_motions(const World& world) {
-    if (!problem_.prices.empty()) {
-      cost_ = motion_cost(prices_.emplace(world.map(), problem_.robot.radius, problem_.prices, execution_));
-    }
-    return cost_;
-  }
+  const MotionCost& price_motions(const World& world) { return price_in(world.map(), execution_); }
   Path<Vec2> shortened(const World& world, Path<Vec2> path, Answer& answer) const {
     if (cost_) return pulled_taut(world, std::move(path), cost_, map_.cell, execution_);
     return shortcut(world, std::move(path), World::distance, answer);
   }
-  void judge(const World&, Path<Vec2> path, Answer& answer) const {
-    answer.path = std::move(path);
-    verify_solved_on_map(answer, map_, problem_, false, execution_);
-  }
 
  private:
   const OccupancyMap& map_;
-  std::optional<MapPrices> prices_;
-  MotionCost cost_;  // empty: nothing has a price
 };
 
 /// By a planner that samples, or along the skeleton.
@@ -450,7 +399,7 @@ Answer solve_chosen(const SolveRequest& request) {
   GoalChoice choice;
   answer_within_limits(chosen, [&] {
     const StageTimer timer(request.execution, "search", chosen.seconds.search, map.blocked.size());
-    if (!stands_free_on_map(map, problem, problem.start, request.execution)) {
+    if (!judge_of(request, problem).stands_free(problem.start)) {
       chosen.outcome = Outcome::start_blocked;
       return;
     }
@@ -497,41 +446,20 @@ NamedLines lines_of(const OccupancyMap& map, const std::vector<std::pair<Cell, C
 
 /// What was found along the skeleton, in the world's coordinates.
 void take_skeleton_path(Answer& answer, const SkeletonPath& plan, const OccupancyMap& map, const WallProblem& problem) {
-  Solution<Vec2> solution{plan.outcome,    plan.stop_reason, {},          plan.roadmap,
-                          plan.separation, plan.counters,    plan.seconds};
-  solution.separation.nearest_gap *= map.cell;
-  for (std::array<double, 2>* place : {&solution.separation.near_start, &solution.separation.near_goal}) {
+  answer.outcome = plan.outcome;
+  answer.separation = plan.separation;
+  answer.separation.nearest_gap *= map.cell;
+  for (std::array<double, 2>* place : {&answer.separation.near_start, &answer.separation.near_goal}) {
     const Vec2 in_world = world_point(map, {(*place)[0], (*place)[1]});
     *place = {in_world.x, in_world.y};
   }
-  if (plan.outcome == Outcome::solved) {
-    solution.path = path_over_cells(map, problem.start, plan.path, problem.goal);
-    answer.path_figures.push_back({"cells", std::uint64_t{plan.path.size()}});
-    answer.path_figures.push_back({"axis_clearance", plan.clearance * map.cell});
-  }
-  take_solution(answer, std::move(solution));
-}
-
-void find_on_skeleton(const SolveRequest& request, const WallProblem& problem, const SkeletonOptions& options,
-                      Answer& answer) {
-  const OccupancyMap& map = *request.scene.map;
-  const Execution& execution = request.execution;
-  const auto start = cell_at(map, problem.start);
-  const auto goal = cell_at(map, problem.goal);
-  answer.outcome = settled_on_map(Outcome::start_blocked, map, problem, execution);
-  if (is_blocked(answer.outcome)) return;  // what lies outside of the map is
-  std::vector<std::pair<Cell, Cell>> steps;
-  auto* kept = request.keep != nullptr ? &steps : nullptr;
-  const SkeletonRoadmap* known = asked_roadmap<SkeletonRoadmap>(request);
-  const SkeletonPath plan =
-      known != nullptr ? plan_on_skeleton(*known, *start, *goal, options, execution, kept)
-                       : plan_on_skeleton(closed_cells(map, problem.start), *start, *goal, options, execution, kept);
-  take_skeleton_path(answer, plan, map, problem);
-  // The skeleton was asked about the middles of the cells.
-  if (is_blocked(answer.outcome)) answer.outcome = Outcome::not_connected;
-  if (problem.start == problem.goal) stay(answer, problem);
-  if (request.keep != nullptr) request.keep->lines.push_back(lines_of(map, steps));
-  verify_solved_on_map(answer, map, problem, true, execution);
+  answer.roadmap = plan.roadmap;
+  answer.counters.expanded = plan.counters.expanded;
+  answer.seconds += plan.seconds;
+  if (plan.outcome != Outcome::solved) return;
+  answer.path = path_over_cells(map, problem.start, plan.path, problem.goal);
+  answer.path_figures.push_back({"cells", std::uint64_t{plan.path.size()}});
+  answer.path_figures.push_back({"axis_clearance", plan.clearance * map.cell});
 }
 
 constexpr PlannerChoice occupancy_planners[] = {
@@ -567,15 +495,35 @@ Verdict recheck_occupancy(const Scene& scene, const Question& question, const Re
 /// verification.
 Answer solve_on_skeleton(const SolveRequest& request) {
   const WallProblem problem = map_problem(request.scene, request.question);
+  const OccupancyMap& map = *request.scene.map;
   const SearchChoice search = search_choice(request.options);
-  const SkeletonOptions options{.radius = problem.reach() / request.scene.map->cell,
+  const SkeletonOptions options{.radius = problem.reach() / map.cell,
                                 .objective = request.options.axis.objective.value_or(AxisObjective::length),
                                 .search = search.search,
                                 .queue = search.queue};
   Answer answer;
   describe_plane_planner(answer, request, problem, search);
   answer.options.push_back({"objective", std::string(name_of(options.objective))});
-  answer_within_limits(answer, [&] { find_on_skeleton(request, problem, options, answer); });
+  answer_within_limits(answer, [&] {
+    const PointJudge judge = judge_of(request, problem);
+    answer.outcome = judge.settled(Outcome::start_blocked);
+    if (is_blocked(answer.outcome)) return;  // what lies outside of the map is
+    const Cell start = *cell_at(map, problem.start);
+    const Cell goal = *cell_at(map, problem.goal);
+    std::vector<std::pair<Cell, Cell>> steps;
+    auto* kept = request.keep != nullptr ? &steps : nullptr;
+    const SkeletonRoadmap* known = asked_roadmap<SkeletonRoadmap>(request);
+    take_skeleton_path(answer,
+                       known != nullptr ? plan_on_skeleton(*known, start, goal, options, request.execution, kept)
+                                        : plan_on_skeleton(closed_cells(map, problem.start), start, goal, options,
+                                                           request.execution, kept),
+                       map, problem);
+    // The skeleton was asked about the middles of the cells.
+    if (is_blocked(answer.outcome)) answer.outcome = Outcome::not_connected;
+    if (problem.start == problem.goal) stay(answer, problem);
+    if (request.keep != nullptr) request.keep->lines.push_back(lines_of(map, steps));
+    judge.verify_solved(answer, true);
+  });
   return answer;
 }
 

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A point or disc among polygons and walls: joins worlds/plane/polygon_world with the planners that sample it, and the
-// planners that don't. visibility: the shortest path of a point, or of what keeps a distance, and that it is the
-// shortest is said. Of a disc that is the path with its arcs; what is verified and answered is a polyline around them.
-// Worlds with very many corners are searched lazily, unless something is asked for that needs the whole graph. With
-// --sampled-edges the graph is made as the report made it, and the answer says which of its edges are wrong. cells: a
-// route through vertical cells, and a path through its doors; that there is no route proves that there is no path.
-// voronoi: along the medial axis, as far from all obstacles as a path can be; min_clearance of the answer is measured
-// on the path by the verification.
+// planners that don't (docs/algorithms.md). What is verified and answered of a disc's shortest path is a polyline
+// around its arcs. Worlds with very many corners are searched lazily, unless something is asked for that needs the
+// whole graph. With --sampled-edges the graph is made as the report made it, and the answer says which of its edges are
+// wrong.
 
 #include <fmt/format.h>
 
@@ -189,7 +186,7 @@ void solve_whole(const SolveRequest& request, const WallProblem& problem, const 
                             ? visibility_path(*known, start, goal, options, request.execution, keep)
                             : confined_visibility_path(obstacles, start, goal, options, request.execution, keep));
   if (answer.outcome == Outcome::not_connected) answer.outcome = Outcome::infeasible;  // the graph misses no path
-  verify_solved(answer, request.scene, problem, request.execution, request.asked.judged());
+  judge_of(request, problem).verify_solved(answer);
   answer.optimal = answer.verified && has_queue(options.search);
 }
 
@@ -237,8 +234,9 @@ void solve_disc(const SolveRequest& request, const WallProblem& problem, Answer&
     tell_bracket(path, answer);
     if (request.keep != nullptr) request.keep->arcs = arcs_of(path);
   }
-  settle_blocked_ends(answer, request.scene, problem, request.execution, request.asked.judged());
-  verify_solved(answer, request.scene, problem, request.execution, request.asked.judged());
+  const PointJudge judge = judge_of(request, problem);
+  answer.outcome = judge.settled(answer.outcome);
+  judge.verify_solved(answer);
   constexpr double bracket = 1e-9;  // of the length: more than the trifles by which it is open
   answer.optimal = answer.verified && path.length - path.lower_bound <= bracket * path.length;
 }
@@ -290,7 +288,7 @@ Answer solve_by_cells(const SolveRequest& request) {
     answer.cells = CellCount{cells.cells.size(), cells.doors.size()};
     if (answer.outcome == Outcome::not_connected) answer.outcome = Outcome::infeasible;  // cells miss no way
     if (request.keep != nullptr) request.keep->lines.push_back(doors_of(cells));
-    verify_solved(answer, request.scene, problem, request.execution, request.asked.judged());
+    judge_of(request, problem).verify_solved(answer);
   });
   return answer;
 }
@@ -337,7 +335,7 @@ PlannerKind usual_plane_planner(const SolveOptions& options, const Scene& scene,
 }
 
 /// For all planners that sample.
-class PointAmongPolygons : public UsualBody<WallProblem> {
+class PointAmongPolygons : public PointBody<SidePrices> {
  public:
   using World = PolygonWorld;
   static constexpr bool names_pipeline = true;
@@ -345,20 +343,11 @@ class PointAmongPolygons : public UsualBody<WallProblem> {
   static constexpr bool improves_by_draws = false;
 
   explicit PointAmongPolygons(const SolveRequest& request)
-      : UsualBody(request, keeping_off(request.scene, request.question,
+      : PointBody(request, keeping_off(request.scene, request.question,
                                        fmt::format("{} keeps off the walls", name_of(request.planner)))) {}
 
-  std::vector<Vec2> goals(const World&) const { return {problem_.goal}; }
   void index(std::optional<World>& world, SamplerKind) const { world.emplace(scene_, problem_.reach(), execution_); }
-  bool start_stands_free() const { return stands_free(scene_, problem_, problem_.start, execution_, judged_); }
-  bool goal_stands_free(Vec2 goal) const { return stands_free(scene_, problem_, goal, execution_, judged_); }
-  void take_prices(const MotionCost& cost) { cost_ = cost; }
-  const MotionCost& price_motions(const World& world) {
-    if (!problem_.prices.empty()) {
-      cost_ = motion_cost(prices_.emplace(world.sides(), problem_.robot.radius, problem_.prices));
-    }
-    return cost_;
-  }
+  const MotionCost& price_motions(const World& world) { return price_in(world.sides()); }
   Path<Vec2> shortened(const World& world, const Path<Vec2>& path, Answer&) const {
     constexpr double steps_a_path = 100.0;
     const double step = path_length(path, World::distance) / steps_a_path;
@@ -369,14 +358,6 @@ class PointAmongPolygons : public UsualBody<WallProblem> {
                              const Execution& execution, Counters&) {
     return taut_path(world.sides(), path, world.planning_clearance(), execution);
   }
-  void judge(const World&, Path<Vec2> path, Answer& answer) const {
-    answer.path = std::move(path);
-    verify_solved(answer, scene_, problem_, execution_, judged_);
-  }
-
- private:
-  std::optional<SidePrices> prices_;
-  MotionCost cost_;  // empty: nothing has a price
 };
 
 Answer solve_plane(const SolveRequest& request) {
@@ -456,7 +437,8 @@ Answer solve_on_medial_axis(const SolveRequest& request) {
       });
     }
     take_solution(answer, std::move(solution));
-    settle_blocked_ends(answer, request.scene, problem, request.execution, request.asked.judged());
+    const PointJudge judge = judge_of(request, problem);
+    answer.outcome = judge.settled(answer.outcome);
     if (problem.start == problem.goal && !is_blocked(answer.outcome) && answer.outcome != Outcome::stopped) {
       stay(answer, problem);
     } else if (answer.outcome == Outcome::solved) {
@@ -465,7 +447,7 @@ Answer solve_on_medial_axis(const SolveRequest& request) {
     }
     const MedialAxis* axis = known != nullptr ? &known->axis : plan.made ? &plan.made->axis : nullptr;
     if (request.keep != nullptr && axis != nullptr) request.keep->lines.push_back(lines_of(*axis));
-    verify_solved(answer, request.scene, problem, request.execution, request.asked.judged());
+    judge.verify_solved(answer);
   });
   return answer;
 }

@@ -4,17 +4,16 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 
 #include "solve/kinds/plane_steps.hpp"
 #include "solve/question/asked_words.hpp"
 #include "verify/judges/effective_scene.hpp"
 #include "verify/judges/verify_price.hpp"
+#include "verify/streamed/verify_cells.hpp"
 
 namespace warren {
 namespace {
 
-/// Is anything asked that makes places dear?
 bool asks_price(const Prices& prices) {
   const AskedWords asked = words_in(prices);
   const std::vector<AskedWord> words = price_words.members();
@@ -84,16 +83,24 @@ VerifyOptions end_options(const WallProblem& problem) {
           .contact = problem.contact};
 }
 
-bool stands_free(const Scene& scene, const WallProblem& problem, Vec2 p, const Execution& execution,
-                 const ObstacleIndex* judged) {
-  return verify_path(scene, std::span(&p, 1), end_options(problem), execution, judged).verified;
+Verification PointJudge::judged(std::span<const Vec2> path, const VerifyOptions& options) const {
+  if (cells != nullptr) return verify_steps(*cells, path, options, execution);
+  if (scene.map) return verify_on_map(*scene.map, path, options, execution);
+  return verify_path(scene, path, options, execution, index);
 }
 
-void settle_blocked_ends(Answer& answer, const Scene& scene, const WallProblem& problem, const Execution& execution,
-                         const ObstacleIndex* judged) {
-  answer.outcome = settled_ends(
-      answer.outcome, [&] { return stands_free(scene, problem, problem.start, execution, judged); },
-      [&] { return stands_free(scene, problem, problem.goal, execution, judged); });
+bool PointJudge::stands_free(Vec2 p) const {
+  if (scene.map) return stands_free_on_map(*scene.map, problem, p, execution);
+  return judged(std::span(&p, 1), end_options(problem)).verified;
+}
+
+Outcome PointJudge::settled(Outcome outcome) const {
+  const auto stays_on_water = [&] {
+    return scene.map && starts_on_water(*scene.map, problem.start) && cell_at(*scene.map, problem.goal);
+  };
+  return settled_ends(
+      outcome, [&] { return stands_free(problem.start); },
+      [&] { return stays_on_water() || stands_free(problem.goal); });
 }
 
 std::string_view cause_of_separation(const Answer& answer, bool by_roadmap) {
@@ -154,11 +161,17 @@ void fail_verification(const Answer& answer, const std::optional<Violation>& fou
                                      violation.leg, violation.obstacle, violation.distance));
 }
 
-void verify_solved(Answer& answer, const Scene& scene, const WallProblem& problem, const Execution& execution,
-                   const ObstacleIndex* judged) {
+void PointJudge::verify_solved(Answer& answer, bool over_cells) const {
   if (answer.outcome != Outcome::solved) return;
   const StageTimer timer(execution, "verify", answer.seconds.verify, answer.path.size() + scene.walls.size());
-  take_verdict(answer, verify_path(scene, answer.path, verify_options(problem), execution, judged));
+  const Verification verdict = judged(answer.path, verify_options(problem));
+  if (verdict.verified || !scene.map) return take_verdict(answer, verdict);
+  const Violation violation = verdict.first_violation.value_or(Violation{});
+  const bool at_an_end = violation.leg == 0 || violation.leg + 2 == answer.path.size();
+  const bool may_miss = over_cells && problem.reach() > 0.0 && at_an_end;
+  answer.outcome = settled(Outcome::start_blocked);
+  if (answer.outcome == Outcome::not_connected && !may_miss) fail_verification(answer, violation);
+  answer.path.clear();
 }
 
 void take_verdict(Answer& answer, const Verification& verdict) {
@@ -208,11 +221,8 @@ void judge_prices(Answer& answer, const Scene& scene, const Question& question, 
   const bool is_driven_on = has_stops && answer.price;  // a car's gear may change where legs meet
   if (!answer.verified || (prices.empty() && !is_driven_on)) return;
   Execution judging = execution;
-  std::optional<Deadline> untimed;  // what ended the search does not end the work on its path
-  if (answer.stop_reason && execution.deadline != nullptr) {
-    const double no_end = std::numeric_limits<double>::infinity();
-    judging.deadline = &untimed.emplace(no_end, execution.deadline->memory_bytes());
-  }
+  std::optional<Deadline> untimed;
+  if (answer.stop_reason) untime(judging, untimed);
   const StageTimer timer(judging, "verify", answer.seconds.verify, path_points(answer));
   const std::optional<Scene> effective = effective_scene(scene, prices, judging);
   const Scene& judged = effective ? *effective : scene;

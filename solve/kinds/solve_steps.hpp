@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <chrono>
 #include <functional>
+#include <limits>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string_view>
 
@@ -20,6 +22,8 @@
 #include "verify/judges/verify_point.hpp"
 
 namespace warren {
+
+class LookedUpWalls;  // verify/streamed/looked_up_walls.hpp
 
 /// SolveKind::usual of a kind whose questions all have the same usual planner.
 template <PlannerKind planner>
@@ -46,15 +50,32 @@ void take_account(Answer& answer, const Solution<State>& solution) {
   answer.seconds += solution.seconds;
 }
 
-/// What the judge of points is asked for a place of the problem as an end.
+/// What the judge of points is asked for the problem, and for a place of it as an end where no map is.
+VerifyOptions verify_options(const WallProblem& problem);
 VerifyOptions end_options(const WallProblem& problem);
-/// Does the body fit there as an end, as the verification sees it? `judged`, here and below: of the scene, or nullptr.
-bool stands_free(const Scene& scene, const WallProblem& problem, Vec2 p, const Execution& execution,
-                 const ObstacleIndex* judged = nullptr);
 
-/// What is said of the ends where one is called blocked: by the verification.
-void settle_blocked_ends(Answer& answer, const Scene& scene, const WallProblem& problem, const Execution& execution,
-                         const ObstacleIndex* judged = nullptr);
+/// The judge of a point or disc, as solves ask it: among walls and polygons, on a map, or by walls that are looked up.
+/// Refers to all of it.
+struct PointJudge {
+  const Scene& scene;
+  const WallProblem& problem;
+  const Execution& execution;
+  const ObstacleIndex* index = nullptr;  ///< of the scene, where there is one
+  const LookedUpWalls* cells = nullptr;  ///< instead of the scene's walls
+
+  Verification judged(std::span<const Vec2> path, const VerifyOptions& options) const;
+  /// Does the body fit there as an end?
+  bool stands_free(Vec2 p) const;
+  /// What is said of the ends where the outcome calls one blocked. On a map who starts on water may stay there.
+  Outcome settled(Outcome outcome) const;
+  /// Verifies the path of a solved answer and fills in length and clearance. A path that fails is a bug: throws as
+  /// fail_verification(). On a map a disc's path over_cells may fail between an end and the middle of its cell, and an
+  /// end may be blocked by rounding alone: then there is none.
+  void verify_solved(Answer& answer, bool over_cells = false) const;
+};
+inline PointJudge judge_of(const SolveRequest& request, const WallProblem& problem) {
+  return {request.scene, problem, request.execution, request.asked.judged()};
+}
 
 /// Why a roadmap or trees do not join start and goal, one word a cause; empty where nobody measured how far they are
 /// apart.
@@ -85,19 +106,19 @@ struct RefutedPathError : std::logic_error {
 /// A planner's path that its judge refuses is a bug: throws RefutedPathError with what the judge found.
 [[noreturn]] void fail_verification(const Answer& answer, const std::optional<Violation>& found);
 
-/// Verifies the path of a solved answer and fills in length and clearance. A path that fails is a bug: throws
-/// std::logic_error.
-void verify_solved(Answer& answer, const Scene& scene, const WallProblem& problem, const Execution& execution,
-                   const ObstacleIndex* judged = nullptr);
-
 /// Bytes that the judge of a path holds, whatever the path: an index of its own of what is in the way, or a map with
 /// prices, and what the answer takes. Planners that get better keep them back.
 std::size_t judge_bytes(const Scene& scene);
 
-/// What the judge of points is asked for the problem.
-VerifyOptions verify_options(const WallProblem& problem);
-/// The judge's word on the path of a solved answer: as verify_solved().
+/// The judge's word on the path of a solved answer: as PointJudge::verify_solved().
 void take_verdict(Answer& answer, const Verification& verdict);
+
+/// Takes the time limit off an execution: what ended a search does not end the work on its path. `last` is its deadline
+/// then, of the memory alone.
+inline void untime(Execution& execution, std::optional<Deadline>& last) {
+  if (execution.deadline == nullptr) return;
+  execution.deadline = &last.emplace(std::numeric_limits<double>::infinity(), execution.deadline->memory_bytes());
+}
 
 /// Runs `solve`, which fills in `answer`; its seconds are solve_s, and whatever stops it is an answer. One that is not
 /// verified claims nothing.

@@ -57,7 +57,6 @@ bool is_worse_end(std::string_view end, std::string_view other) {
   return std::ranges::find(best_first, end) >= std::ranges::find(best_first, other);
 }
 
-/// The path goes on where the one before ended.
 void add_path(Answer& answer, const Answer& before) {
   Path<Vec2> path = before.path;
   if (!answer.path.empty()) path.insert(path.end(), answer.path.begin() + 1, answer.path.end());
@@ -100,7 +99,6 @@ void add_by_products(ByProducts& whole, ByProducts made) {
   put_before(whole.arcs.turns, made.arcs.turns);
 }
 
-/// One question with stops: the legs share it and fill in the answer.
 class ThroughStops {
  public:
   ThroughStops(const SolveRequest& request, std::span<const std::vector<double>> stops,
@@ -242,11 +240,8 @@ class ThroughStops {
     if (is_timed_) whole_.iterations.reset();  // no number is that of each leg
     const double spent_s = whole_.solve_s;
     Execution execution = request_.execution;
-    std::optional<Deadline> untimed;  // what ended the search of who gets better does not end the work
-    if (improves() && execution.deadline != nullptr) {
-      const std::size_t memory_bytes = execution.deadline->memory_bytes();
-      execution.deadline = &untimed.emplace(std::numeric_limits<double>::infinity(), memory_bytes);
-    }
+    std::optional<Deadline> untimed;
+    if (improves()) untime(execution, untimed);
     answer_within_limits(whole_, [&] {
       const StageTimer timer(execution, "verify", whole_.seconds.verify, path_points(whole_));
       const Question asked = whole_.problem.question();

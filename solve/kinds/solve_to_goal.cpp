@@ -17,7 +17,6 @@ namespace {
 
 Vec2 position(const std::vector<double>& state) { return {state[0], state[1]}; }
 
-/// One question: the steps share it and fill in the answer.
 class ToGoal {
  public:
   ToGoal(const SolveKind& kind, const SolveRequest& request)
@@ -295,9 +294,7 @@ double paid_for(const Answer& answer, const SolveRequest& request) {
 }
 
 std::vector<std::vector<double>> goals_of(const Scene& scene, const Question& question) {
-  std::vector<std::vector<double>> goals{question.goal.empty() ? scene.goal : question.goal};
-  const GoalRule rule = rule_of(scene, question);
-  goals.insert(goals.end(), rule.others.begin(), rule.others.end());
+  auto goals = rule_of(scene, question).goals(question.goal.empty() ? scene.goal : question.goal);
   const RobotSpec robot = robot_of(scene, question);
   for (std::vector<double>& goal : goals) {  // a file's headings mean nothing to a point
     if (question.goal.empty() && is_round(robot) && goal.size() == 3) goal.resize(2);

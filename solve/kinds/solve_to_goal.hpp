@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a question asks beyond a way to one goal, for kinds that don't decide it themselves (on maps points and discs
-// do, goals_on_map.hpp). Several goals: the planner plans to each, and the cheapest path is the answer. A tolerance or
-// a region: a lattice of positions and headings says which places near the goal can be reached, and the planner plans
-// to the nearest, or the cheapest. Stops on the way: the planner plans from one to the next; where their order is open,
-// it plans between all of them first, and the order is the cheapest one over what it found.
+// do, goals_on_map.hpp): several goals, a tolerance or a region (docs/algorithms.md). Stops on the way: the planner
+// plans from one to the next; where their order is open, it plans between all of them first, and the order is the
+// cheapest one over what it found.
 #pragma once
 
 #include <algorithm>
@@ -127,5 +126,21 @@ inline constexpr std::pair<std::string_view, std::string_view> visited_place{"@v
 
 /// SolveKind::solve, whatever the question leaves open of its goal, and whatever stops it has. Throws as that.
 Answer solve_to_goal(const SolveKind& kind, const SolveRequest& request);
+
+// A route is kept (keep_route.cpp; docs/algorithms.md): the rest of an older path, where that is still
+// free and a new one is not much cheaper.
+
+/// What is left of a route for a robot that stands at `start`: from there to the route's place nearest to it, then on.
+/// Of places that are as near but for `slack` the first counts, so that nobody jumps to where the route comes by again.
+/// is_cut: may the route begin within one of its motions? else it begins with the state after. States are numbers of
+/// one count; of bodies of the plane the first two are their place, of arms all are joints. Empty: the route is.
+std::vector<std::vector<double>> rest_of_route(const std::vector<std::vector<double>>& route,
+                                               const std::vector<double>& start, double slack, bool is_cut,
+                                               bool of_arm = false);
+
+/// Decides, where the question asks, and tells in the answer. Throws UsageError for routes of another body or to
+/// another goal, and where costs can't be compared; Stopped.
+void keep_to_route(Answer& answer, const Scene& scene, const Question& question, const SolveOptions& options,
+                   const Execution& execution);
 
 }  // namespace warren

@@ -42,32 +42,39 @@ Path<Se2> without_half_turns(const Path<Se2>& path) {
   return cut;
 }
 
-/// Does a polygon that may turn stand free at the pose as an end, with its clearance? `judged`, here and below: of the
-/// scene, or nullptr.
-bool turning_stands_free(const Scene& scene, const PoseProblem& problem, const Se2& pose, const Execution& execution,
-                         const ObstacleIndex* judged = nullptr) {
-  const PoseVerifyOptions options{.clearance = problem.clearance + end_margin(scene, problem, execution)};
-  return verify_se2(scene, problem.robot.outline, std::span(&pose, 1), options, execution, judged).verified;
-}
+/// The judge of a polygon that may turn, as solves ask it. Refers to all of it.
+struct PolygonJudge {
+  const Scene& scene;
+  const PoseProblem& problem;
+  const Execution& execution;
+  const ObstacleIndex* index = nullptr;  ///< of the scene, where there is one
 
-/// Verifies its path, whichever planner found it, and fills it into the answer with what is said of it. A leg of about
-/// half a turn, which could be read either way, gets a pose in its middle. A path that fails is a bug: throws
-/// std::logic_error.
-void judge_turning(const Scene& scene, const PoseProblem& problem, const Path<Se2>& path, const Execution& execution,
-                   Answer& answer, const ObstacleIndex* judged = nullptr) {
-  const Path<Se2> poses = without_half_turns(path);
-  const StageTimer timer(execution, "verify", answer.seconds.verify, poses.size());
-  const Verification found =
-      verify_se2(scene, problem.robot.outline, poses, verify_options(problem), execution, judged);
-  take_poses(answer, found, poses);
-}
+  Verification judged(std::span<const Se2> poses, const PoseVerifyOptions& options) const {
+    return verify_se2(scene, problem.robot.outline, poses, options, execution, index);
+  }
+  /// As an end.
+  bool stands_free(const Se2& pose) const {
+    const double margin = end_margin(scene, problem, execution);
+    return judged(std::span(&pose, 1), {.clearance = problem.clearance + margin}).verified;
+  }
+  void settle_ends(Answer& answer) const {
+    settle_blocked_poses(answer, scene, problem, execution, [this](const Se2& pose) { return stands_free(pose); });
+  }
+  /// Verifies a path, whichever planner found it, and fills it into the answer with what is said of it. A leg of about
+  /// half a turn, which could be read either way, gets a pose in its middle. Throws as take_verdict().
+  void judge(const Path<Se2>& path, Answer& answer) const {
+    const Path<Se2> poses = without_half_turns(path);
+    const StageTimer timer(execution, "verify", answer.seconds.verify, poses.size());
+    take_poses(answer, judged(poses, verify_options(problem)), poses);
+  }
+};
 
 Verdict recheck_turning(const Scene& scene, const Question& question, const RecordedAnswer& answer,
                         const Execution& execution) {
   const PoseProblem problem = pose_problem(scene, question, turning_body);
   check_state_width(answer, 3, turning_body);
-  return {verify_se2(scene, problem.robot.outline, poses_of(answer.states), verify_options(problem), execution),
-          problem.general()};
+  const PolygonJudge judge{scene, problem, execution};
+  return {judge.judged(poses_of(answer.states), verify_options(problem)), problem.general()};
 }
 
 class TurningPolygon : public PoseBody {
@@ -84,20 +91,18 @@ class TurningPolygon : public PoseBody {
     world.emplace(scene_, problem_.robot.outline, Se2Options{.clearance = problem_.clearance}, execution_);
   }
   bool start_stands_free() const { return goal_stands_free(problem_.start); }
-  bool goal_stands_free(const Se2& pose) const {
-    return turning_stands_free(scene_, problem_, pose, execution_, judged_);
-  }
+  bool goal_stands_free(const Se2& pose) const { return polygon_judge().stands_free(pose); }
   static double length(const World&, const Se2& a, const Se2& b) { return distance(a.position(), b.position()); }
   Path<Se2> shortened(const World& world, Path<Se2> path, Answer& answer) const {
     if (const auto cost = price_motions(world)) return shortcut(world, std::move(path), cost, answer);
     const auto plane_length = [&](const Se2& a, const Se2& b) { return length(world, a, b); };
     return shortcut(world, std::move(path), plane_length, answer);
   }
-  void judge(const World&, const Path<Se2>& path, Answer& answer) const {
-    judge_turning(scene_, problem_, path, execution_, answer, judged_);
-  }
+  void judge(const World&, const Path<Se2>& path, Answer& answer) const { polygon_judge().judge(path, answer); }
 
  private:
+  PolygonJudge polygon_judge() const { return {scene_, problem_, execution_, judged_}; }
+
   std::unique_ptr<PosePrices> prices_;  // motions refer to it
 };
 
@@ -111,6 +116,25 @@ constexpr PlannerChoice turning_planners[] = {{PlannerKind::rrt_connect, rrt_con
                                               {PlannerKind::anytime, anytime_options, turning_words}};
 
 bool fits_turning(const Scene&, const RobotSpec& robot) { return robot.kind == RobotKind::polygon; }
+
+/// One solve of a planner that doesn't turn the body on its way.
+class UnturnedSolve {
+ protected:
+  explicit UnturnedSolve(const SolveRequest& request)
+      : request_(request), problem_(pose_problem(request.scene, request.question, turning_body)) {}
+
+  PolygonJudge judge() const { return {request_.scene, problem_, request_.execution, request_.asked.judged()}; }
+  /// At the start's heading.
+  Path<Se2> poses_along(const Path<Vec2>& path) const {
+    Path<Se2> poses;
+    for (const Vec2 p : path) poses.push_back({p.x, p.y, problem_.start.theta});
+    return poses;
+  }
+
+  const SolveRequest& request_;
+  PoseProblem problem_;
+  Answer answer_;
+};
 
 // The planner voronoi for a polygon that could turn: along the medial axis of the scene, or the skeleton of a map, with
 // the disc that holds the body in any heading, so the heading of the start serves all the way; where the goal names
@@ -135,10 +159,9 @@ auto of_disc(const SolveRequest& request, Solve solve) {
   return solve(asked);
 }
 
-class AxisSolve {
+class AxisSolve : UnturnedSolve {
  public:
-  explicit AxisSolve(const SolveRequest& request)
-      : request_(request), problem_(pose_problem(request.scene, request.question, turning_body)) {}
+  explicit AxisSolve(const SolveRequest& request) : UnturnedSolve(request) {}
 
   Answer run() {
     answer_ = of_disc(request_, request_.scene.map ? solve_on_skeleton : solve_on_medial_axis);
@@ -151,37 +174,34 @@ class AxisSolve {
   }
 
  private:
-  bool stands_free(const Se2& pose) const {
-    return turning_stands_free(request_.scene, problem_, pose, request_.execution, request_.asked.judged());
-  }
   void finish() {
     if (answer_.outcome != Outcome::solved) settle_blocked_ends();
     if (answer_.outcome == Outcome::solved && request_.scene.map) check_ends_on_map();
     if (answer_.outcome != Outcome::solved) return;
-    for (const Vec2 p : answer_.path) poses_.push_back({p.x, p.y, problem_.start.theta});
-    turn_at_the_goal();
-    judge_turning(request_.scene, problem_, poses_, request_.execution, answer_, request_.asked.judged());
+    Path<Se2> poses = poses_along(answer_.path);
+    turn_at_the_goal(poses);
+    judge().judge(poses, answer_);
   }
 
   /// A disc that starts on water may stay there, a polygon may not.
   void check_ends_on_map() {
     const Vec2 goal = answer_.path.back();
-    if (!stands_free(problem_.start)) {
+    if (!judge().stands_free(problem_.start)) {
       answer_.outcome = Outcome::start_blocked;
-    } else if (!stands_free({goal.x, goal.y, problem_.start.theta})) {
+    } else if (!judge().stands_free({goal.x, goal.y, problem_.start.theta})) {
       answer_.outcome = Outcome::goal_blocked;
     }
   }
 
   /// In steps of at most a third of a turn, so that the way round is never in doubt.
-  void turn_at_the_goal() {
+  void turn_at_the_goal(Path<Se2>& poses) const {
     if (problem_.any_heading()) return;
     constexpr double most_rad = 2.0 * std::numbers::pi / 3.0;
     const double turn = turn_between(problem_.start.theta, problem_.goal[2]);
     const auto steps = static_cast<int>(std::ceil(std::abs(turn) / most_rad));
     for (int i = 1; i <= steps; ++i) {
       const double theta = i == steps ? problem_.goal[2] : problem_.start.theta + turn * i / steps;
-      poses_.push_back({problem_.goal[0], problem_.goal[1], theta});
+      poses.push_back({problem_.goal[0], problem_.goal[1], theta});
     }
   }
 
@@ -189,8 +209,7 @@ class AxisSolve {
   void settle_blocked_ends() {
     const bool at_start = answer_.outcome == Outcome::start_blocked;
     const bool is_settled = !is_blocked(answer_.outcome);
-    settle_blocked_poses(answer_, request_.scene, problem_, request_.execution,
-                         [this](const Se2& pose) { return stands_free(pose); });
+    judge().settle_ends(answer_);
     if (is_settled || is_blocked(answer_.outcome)) return;
     if (problem_.is_at_goal()) {
       answer_.outcome = Outcome::solved;
@@ -199,11 +218,6 @@ class AxisSolve {
     }
     answer_.figures.push_back({"cause", std::string(at_start ? "disc_blocked_at_start" : "disc_blocked_at_goal")});
   }
-
-  const SolveRequest& request_;
-  PoseProblem problem_;
-  Path<Se2> poses_;
-  Answer answer_;
 };
 
 std::unique_ptr<RoadmapSession> open_turning_axis(const SolveRequest& request, const RoadmapArrays& arrays,
@@ -211,88 +225,81 @@ std::unique_ptr<RoadmapSession> open_turning_axis(const SolveRequest& request, c
   return of_disc(request, [&](const SolveRequest& disc) { return open_geometric(disc, arrays, rule); });
 }
 
-// The planners that don't turn a polygon, in scenes: on maps, whose cells all touch, they have none. Minkowski sums of
-// the obstacles with the mirrored body (worlds/plane/obstacles_at_fixed_angle), and the visibility graph among them,
-// which gives the shortest path, or vertical cells around their union. The body keeps a hair's breadth off the
-// obstacles, a ten-billionth of the world's size, so that rounding can't fail the verification; by so little, times the
-// corners that it passes, the path may be longer than the shortest.
+// The planners that don't turn a polygon, in scenes: on maps, whose cells all touch, they have none. By so little as
+// the body keeps off the obstacles (docs/algorithms.md), times the corners that it passes, the path may be longer than
+// the shortest.
 
-double size_of(const Scene& scene, std::span<const Vec2> outline) {
-  Box box = obstacle_box(scene);
-  if (scene.bounds) box.include(*scene.bounds);
-  double largest = outline_reach(outline);
-  if (box.empty()) return largest;
-  for (const double c : {box.min.x, box.min.y, box.max.x, box.max.y}) largest = std::max(largest, std::abs(c));
-  return largest;
-}
-
-/// cells: none: the visibility graph.
-Solution<Vec2> plan_for_point(const PlaneObstacles& obstacles, const PoseProblem& problem,
-                              const std::optional<CellOptions>& cells, const Execution& execution, ByProducts* keep) {
-  const Vec2 start = problem.start.position();
-  const Vec2 goal = problem.goal_pose().position();
-  if (!cells) return visibility_path(obstacles, start, goal, {}, execution);
-  CellOptions options = *cells;
-  options.overlaps = Overlaps::united;
-  CellPlan plan;
-  Solution<Vec2> solution = plan_through_cells(obstacles, start, goal, options, execution, &plan);
-  if (keep != nullptr) keep->lines.push_back(doors_of(plan.cells));
-  return solution;
-}
-
-/// Is there any place where the body, at the start's angle, has its room in the bounds?
-bool fits_in_bounds(const Scene& scene, const PoseProblem& problem, double room) {
-  if (!scene.bounds) return true;
-  Box body;
-  for (const Vec2 p : problem.robot.outline) body.include(placed({0.0, 0.0, problem.start.theta}, p));
-  return body.width() + 2.0 * room < scene.bounds->width() && body.height() + 2.0 * room < scene.bounds->height();
-}
-
-/// The way of the reference point. `keep`, where given, receives what blocks it, and the cells. A body that does not
-/// fit in the bounds at this angle starts blocked.
-Solution<Vec2> plan_at_fixed_angle(const Scene& scene, const PoseProblem& problem,
-                                   const std::optional<CellOptions>& cells, const Execution& execution,
-                                   ByProducts* keep) {
-  const std::vector<Vec2>& outline = problem.robot.outline;
-  const double hair = 1e-10 * size_of(scene, outline);
-  const std::size_t disc_corners = problem.clearance > 0.0 ? 32 : 4;  // of a polygon around the clearance's disc
-  if (!fits_in_bounds(scene, problem, 2.0 * (problem.clearance + hair))) {
-    Solution<Vec2> blocked;
-    blocked.outcome = Outcome::start_blocked;
-    return blocked;
+class FixedAngleSolve : UnturnedSolve {
+ public:
+  explicit FixedAngleSolve(const SolveRequest& request) : UnturnedSolve(request) {
+    constexpr double same_rad = 1e-9;
+    if (!problem_.any_heading() && !(std::abs(turn_between(problem_.start.theta, problem_.goal[2])) <= same_rad)) {
+      throw UsageError(fmt::format("@planner: {} does not turn the body; start and goal have different angles",
+                                   name_of(request.planner)));
+    }
+    const SearchChoice search = search_choice(request.options);
+    answer_.problem = problem_.general();
+    answer_.planner = name_of(request.planner);
+    answer_.search = name_of(search.search);
+    if (request.planner != PlannerKind::cells) return;
+    cells_ = cell_options(request.options, search);
+    cells_->overlaps = Overlaps::united;
+    answer_.options.push_back(doors_option(*cells_));
   }
-  double index_s = 0.0;
-  PlaneObstacles obstacles;
-  {
-    const StageTimer timer(execution, "index", index_s);
-    obstacles = translation_obstacles(scene, outline, problem.start.theta, problem.clearance + hair, disc_corners);
+
+  void run() {
+    const Solution<Vec2> solution = plan();
+    if (cells_) answer_.cells = CellCount{solution.roadmap.milestones, solution.roadmap.edges};
+    take_account(answer_, solution);
+    judge().settle_ends(answer_);
+    if (answer_.outcome == Outcome::solved) judge().judge(poses_along(solution.path), answer_);
   }
-  Solution<Vec2> solution = plan_for_point(obstacles, problem, cells, execution, keep);
-  if (keep != nullptr) keep->lines.push_back({"blocked", obstacles.polygons, true});
-  solution.seconds.index += index_s;
-  return solution;
-}
+  Answer& answer() { return answer_; }
 
-void check_angles(const PoseProblem& problem, PlannerKind planner) {
-  constexpr double same_rad = 1e-9;
-  if (problem.any_heading() || std::abs(turn_between(problem.start.theta, problem.goal[2])) <= same_rad) return;
-  throw UsageError(
-      fmt::format("@planner: {} does not turn the body; start and goal have different angles", name_of(planner)));
-}
+ private:
+  /// The way of the reference point. A body that does not fit in the bounds at this angle starts blocked.
+  Solution<Vec2> plan() {
+    const std::vector<Vec2>& outline = problem_.robot.outline;
+    const double room = problem_.clearance + 1e-10 * world_size();
+    const std::size_t disc_corners = problem_.clearance > 0.0 ? 32 : 4;  // of a polygon around the clearance's disc
+    Solution<Vec2> solution;
+    solution.outcome = Outcome::start_blocked;
+    if (!fits_in_bounds(2.0 * room)) return solution;
+    PlaneObstacles obstacles;
+    {
+      const StageTimer timer(request_.execution, "index", answer_.seconds.index);
+      obstacles = translation_obstacles(request_.scene, outline, problem_.start.theta, room, disc_corners);
+    }
+    const Vec2 start = problem_.start.position();
+    const Vec2 goal = problem_.goal_pose().position();
+    CellPlan plan;
+    solution = cells_ ? plan_through_cells(obstacles, start, goal, *cells_, request_.execution, &plan)
+                      : visibility_path(obstacles, start, goal, {}, request_.execution);
+    if (request_.keep == nullptr) return solution;
+    if (cells_) request_.keep->lines.push_back(doors_of(plan.cells));
+    request_.keep->lines.push_back({"blocked", obstacles.polygons, true});
+    return solution;
+  }
+  double world_size() const {
+    const Scene& scene = request_.scene;
+    Box box = obstacle_box(scene);
+    if (scene.bounds) box.include(*scene.bounds);
+    double largest = outline_reach(problem_.robot.outline);
+    if (box.empty()) return largest;
+    for (const double c : {box.min.x, box.min.y, box.max.x, box.max.y}) largest = std::max(largest, std::abs(c));
+    return largest;
+  }
+  /// Is there any place where the body, at the start's angle, has its room in the bounds?
+  bool fits_in_bounds(double room) const {
+    const std::optional<Box>& bounds = request_.scene.bounds;
+    if (!bounds) return true;
+    Box body;
+    for (const Vec2 p : problem_.robot.outline) body.include(placed({0.0, 0.0, problem_.start.theta}, p));
+    return body.width() + 2.0 * room < bounds->width() && body.height() + 2.0 * room < bounds->height();
+  }
 
-void find_and_verify(const SolveRequest& request, const PoseProblem& problem, const std::optional<CellOptions>& cells,
-                     Answer& answer) {
-  const Solution<Vec2> solution = plan_at_fixed_angle(request.scene, problem, cells, request.execution, request.keep);
-  if (cells) answer.cells = CellCount{solution.roadmap.milestones, solution.roadmap.edges};
-  take_account(answer, solution);
-  settle_blocked_poses(answer, request.scene, problem, request.execution, [&](const Se2& pose) {
-    return turning_stands_free(request.scene, problem, pose, request.execution);
-  });
-  if (answer.outcome != Outcome::solved) return;
-  Path<Se2> poses;
-  for (const Vec2 p : solution.path) poses.push_back({p.x, p.y, problem.start.theta});
-  judge_turning(request.scene, problem, poses, request.execution, answer);
-}
+  std::optional<CellOptions> cells_;  // none: the visibility graph
+};
 
 constexpr AskedWords fixed_words = restriction_words | AskedWords{AskedWord::goal};
 constexpr PlannerChoice fixed_angle_planners[] = {
@@ -300,23 +307,6 @@ constexpr PlannerChoice fixed_angle_planners[] = {
     {PlannerKind::cells, {Option::doors, Option::search, Option::queue, Option::bound}, fixed_words}};
 
 bool fits_fixed_angle(const Scene& scene, const RobotSpec& robot) { return fits_turning(scene, robot) && !scene.map; }
-
-Answer solve_fixed_angle(const SolveRequest& request) {
-  const PoseProblem problem = pose_problem(request.scene, request.question, turning_body);
-  check_angles(problem, request.planner);
-  const SearchChoice search = search_choice(request.options);
-  Answer answer;
-  answer.problem = problem.general();
-  answer.planner = name_of(request.planner);
-  answer.search = name_of(search.search);
-  std::optional<CellOptions> cells;
-  if (request.planner == PlannerKind::cells) {
-    cells = cell_options(request.options, search);
-    answer.options.push_back(doors_option(*cells));
-  }
-  answer_within_limits(answer, [&] { find_and_verify(request, problem, cells, answer); });
-  return answer;
-}
 
 }  // namespace
 
@@ -344,7 +334,7 @@ SolveKind turning_axis_kind() {
 
 SolveKind fixed_angle_kind() {
   return {"a polygon at a fixed angle", fits_fixed_angle, fixed_angle_planners, usually<PlannerKind::visibility>,
-          solve_fixed_angle};
+          [](const SolveRequest& request) { return answered(FixedAngleSolve(request)); }};
 }
 
 }  // namespace warren

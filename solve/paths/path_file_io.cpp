@@ -20,7 +20,6 @@
 namespace warren {
 namespace {
 
-/// A line of the file.
 struct Row {
   std::size_t leg = 0;
   PathState state;

@@ -29,7 +29,6 @@ struct PathFileOptions {
   std::string frame = "map";                ///< what YAML and GeoJSON call the coordinates' frame
 };
 
-/// What was written.
 struct PathFileAccount {
   std::uint64_t places = 0;
   std::optional<double> duration_s;

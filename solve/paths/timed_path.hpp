@@ -20,7 +20,6 @@ namespace warren {
 
 enum class LegShape : std::uint8_t { straight, turning, driven, joints };
 
-/// A state on the path.
 struct PathState {
   std::array<double, most_joints> numbers{};
   std::size_t width = 2;  ///< 2: x, y; 3: x, y, theta; of arms, the joints
@@ -80,7 +79,6 @@ struct TravelLimits {
   std::vector<double> joint_acceleration = {};  ///< rad/s^2; empty: no limit
 };
 
-/// A moment of a timed path.
 struct PathMoment {
   std::size_t leg = 0;
   double share = 0.0;  ///< of the leg
@@ -96,7 +94,6 @@ class TimedPath {
   double duration_s() const { return times_.back(); }
   /// 0 <= t <= duration_s().
   PathMoment at(double t) const;
-  /// At a share of a leg.
   PathMoment at_share(std::size_t leg, double share, double& time_s) const;
 
  private:

@@ -41,7 +41,6 @@ constexpr auto enum_names(AskedWord) {
       "unknown",         "keep_out",       "unknown", "goal",         "goal_tolerance",
       "goal_region",     "goal_tolerance", "visit",   "alternatives", "keep_to"};
 }
-/// A set of them.
 using AskedWords = EnumSet<AskedWord>;
 
 /// What is geometry: it says what blocks, and planners of maps or polygons take it with these.
@@ -56,11 +55,9 @@ inline constexpr AskedWords route_words{AskedWord::alternatives, AskedWord::keep
 inline constexpr AskedWords choice_words{AskedWord::goal, AskedWord::goal_tolerance, AskedWord::goal_region};
 inline constexpr AskedWords pose_choice_words = choice_words | AskedWords{AskedWord::goal_heading};
 
-/// The words that prices say.
+/// The words that these say.
 AskedWords words_in(const Prices& prices);
-/// The words that a rule of goals says.
 AskedWords words_in(const GoalRule& rule);
-/// The words that a rule of ways says.
 AskedWords words_in(const RouteRule& route);
 /// The words that a question says, whatever the world's file says.
 inline AskedWords words_in(const Question& question) {

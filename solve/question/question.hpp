@@ -29,6 +29,12 @@ struct GoalRule {
 
   /// Is anything said?
   bool empty() const { return others.empty() && !tolerance && !region && visit.empty() && !back; }
+  /// All goals, the first first.
+  std::vector<std::vector<double>> goals(const std::vector<double>& first) const {
+    std::vector<std::vector<double>> all{first};
+    all.insert(all.end(), others.begin(), others.end());
+    return all;
+  }
 };
 
 /// Which of the ways is taken, and which others are told. Nothing said: one of the cheapest, alone.

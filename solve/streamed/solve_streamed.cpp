@@ -85,10 +85,6 @@ class ArrayWalls : public StreamedWalls {
   JudgedNpyMaze judged_;
 };
 
-VerifyOptions judged_as(const WallProblem& problem) {
-  return {.radius = problem.robot.radius, .clearance = problem.clearance, .start = problem.start, .goal = problem.goal};
-}
-
 /// Judges a path as it comes, and hands it on.
 class JudgedPath : public PathTaker {
  public:
@@ -124,7 +120,6 @@ class JudgedPath : public PathTaker {
   bool is_first_ = true;
 };
 
-/// One solve: the steps share the question and fill in the answer.
 class StreamedSolve {
  public:
   StreamedSolve(const Scene& scene, const Question& question, const SolveOptions& options, const Execution& execution,
@@ -173,7 +168,7 @@ class StreamedSolve {
     Path<Vec2> kept;
     PathKeeper keeper(kept, execution_);
     JudgesElsewhere* const judges = help_.team != nullptr ? &help_.team->judges() : nullptr;
-    JudgedPath judged({walls_->judged(), judged_as(problem_), execution_, judges},
+    JudgedPath judged({walls_->judged(), verify_options(problem_), execution_, judges},
                       help_.taker != nullptr ? *help_.taker : keeper, answer_.seconds, execution_);
     take_solution(answer_, tiled_prm({none,
                                       {},
@@ -241,7 +236,9 @@ Verdict recheck_streamed(const Scene& scene, const Question& question, const Rec
   if (walls->hash() && answer.world_hash && *walls->hash() != *answer.world_hash) {
     refuse_other_world(answer, answer.file, scene, *walls->hash());
   }
-  const Verification kept_off = verify_among_cells(walls->judged(), answer.path, judged_as(problem), execution);
+  VerifyOptions options = verify_options(problem);
+  options.contact = Contact::blocked;
+  const Verification kept_off = verify_among_cells(walls->judged(), answer.path, options, execution);
   if (!kept_off.verified && problem.contact == Contact::allowed)
     throw InputError("contact", "is not judged where walls are made tile by tile, and without it the path is refuted");
   return {kept_off, problem.general()};

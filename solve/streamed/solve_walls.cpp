@@ -50,7 +50,6 @@ WallProblem problem_of(const SolveRequest& request) {
   return keeping_off(request.scene, request.question, "prm and lazy-prm keep off the walls");
 }
 
-/// One solve: the steps share the question and fill in the answer.
 class WallSolve {
  public:
   explicit WallSolve(const SolveRequest& request)
@@ -64,11 +63,12 @@ class WallSolve {
 
   void run() {
     plan(request_.keep != nullptr ? &request_.keep->roadmap : nullptr);
-    settle_blocked_ends(answer_, scene_, problem_, execution_, request_.asked.judged());
+    const PointJudge judge = judge_of(request_, problem_);
+    answer_.outcome = judge.settled(answer_.outcome);
     if (answer_.outcome == Outcome::not_connected) proved_infeasible();
     tell_cause();
     if (request_.options.optimise && answer_.outcome == Outcome::solved) optimise();
-    verify_solved(answer_, scene_, problem_, execution_, request_.asked.judged());
+    judge.verify_solved(answer_);
   }
   Answer& answer() { return answer_; }
 

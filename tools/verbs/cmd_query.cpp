@@ -38,7 +38,7 @@ constexpr OptionSpec query_specs[] = {
 class QueryCommand : public AnswerCommand {
  public:
   explicit QueryCommand(const Arguments& arguments)
-      : AnswerCommand(arguments, "--keep"), question_(question_words(arguments)), how_(search_words(arguments)) {
+      : AnswerCommand(arguments, "--keep"), question_(question_words(arguments)), how_(solve_words(arguments)) {
     if (!question_.rule.empty()) throw UsageError("--goal: a kept roadmap is asked for one goal; solve takes several");
   }
 
@@ -86,7 +86,7 @@ Asked ask_table(const RoadmapQuery& query, const Arguments& arguments, const Bat
 /// Answers the many questions of --batch or --matrix, in lines.
 int ask_many(const Arguments& arguments) {
   const bool is_table = arguments.has("--matrix");
-  const BatchOptions options{search_words(arguments), arguments.has("--lengths-only"), arguments.has("--csv")};
+  const BatchOptions options{solve_words(arguments), arguments.has("--lengths-only"), arguments.has("--csv")};
   const auto keep_file = output_file(arguments, "--keep");
   const std::string why = fmt::format("is for one question; {} has many", is_table ? "--matrix" : "--batch");
   arguments.refuse({"--start", "--goal", "--json", "--picture", "--explain"}, why);
@@ -94,8 +94,7 @@ int ask_many(const Arguments& arguments) {
   arguments.refuse(path_option_specs(), why);
   Run run(arguments);
   Roadmap roadmap = load_roadmap(arguments, run.execution());
-  const auto questions = is_table || options.lengths_only ? Questions::lengths : Questions::many;
-  const auto query = std::make_unique<RoadmapQuery>(roadmap, run.execution(), questions);
+  const auto query = std::make_unique<RoadmapQuery>(roadmap, run.execution(), Questions::many);
   const auto [said, wrong] = (is_table ? ask_table : ask_lines)(*query, arguments, options, run.execution());
   if (keep_file) {
     learn(roadmap, *query, run.execution());

@@ -240,10 +240,4 @@ std::vector<OptionSpec> solve_option_specs() {
   return specs;
 }
 
-RoadmapSearchFields search_words(const Arguments& arguments) {
-  const SolveOptions words = solve_words(arguments);
-  return {words.search,           words.queue,     words.roadmap.attach, words.optimise, words.car.cusp_cost,
-          words.car.reverse_cost, words.heuristic, words.bound};
-}
-
 }  // namespace warren::tools

@@ -9,7 +9,6 @@
 #include <string_view>
 #include <vector>
 
-#include "solve/kept/roadmap_query.hpp"
 #include "solve/question/solve_options.hpp"
 #include "tools/words/command.hpp"
 
@@ -23,9 +22,6 @@ std::span<const OptionSpec> roadmap_option_specs();
 std::vector<OptionSpec> solve_option_specs();
 /// Throws UsageError for words and values that mean nothing; what contradicts what is not looked at.
 SolveOptions solve_words(const Arguments& arguments);
-
-/// What a question to a roadmap may say of its search. Throws as solve_words().
-RoadmapSearchFields search_words(const Arguments& arguments);
 
 /// --seed; 1 where nothing is said. Throws UsageError.
 std::uint64_t seed_word(const Arguments& arguments);

@@ -8,7 +8,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/rng.hpp"
-#include "solve/kinds/keep_route.hpp"
+#include "solve/kinds/solve_to_goal.hpp"
 #include "solve/solve.hpp"
 #include "tests/planners/grid/class_oracle.hpp"
 #include "tests/seeds.hpp"
