@@ -28,7 +28,6 @@
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/words/option_values.hpp"
-#include "tools/words/planner_words.hpp"
 #include "tools/words/question_words.hpp"
 
 namespace warren::distributed {

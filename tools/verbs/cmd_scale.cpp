@@ -16,7 +16,6 @@
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/words/command.hpp"
 #include "tools/words/option_values.hpp"
-#include "tools/words/planner_words.hpp"
 #include "tools/words/question_words.hpp"
 
 namespace warren::tools {
@@ -35,7 +34,6 @@ constexpr OptionSpec study_specs[] = {
     {"--html", "FILE", "write a page with plots that needs no network; - is standard output"},
 };
 
-/// Rows and columns.
 using Size = std::pair<std::uint32_t, std::uint32_t>;
 
 Size size_value(std::string_view option, std::string_view word) {

@@ -50,7 +50,6 @@ std::string unit_behind(const ServedWorld& world) {
   return unit.empty() ? "" : " " + std::string(unit);
 }
 
-/// Of a maze's lattice.
 Legend passages_legend(std::uint64_t passages, std::uint64_t cells) {
   return {{component_inks[0], fmt::format("{} between {}, drawn where a cell has 8 pixels or more",
                                           counted(passages, "passage", "passages"), counted(cells, "cell", "cells"))}};
@@ -135,7 +134,6 @@ unsigned zoom_of(double pixel, const TileGrid& grid) {
   return zoom;
 }
 
-/// Is it asked by the roadmap of a maze's lattice?
 bool has_lattice(const ServedWorld& world) {
   return world.query() != nullptr && world.query()->roadmap().lattice != nullptr;
 }
