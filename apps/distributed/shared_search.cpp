@@ -534,7 +534,6 @@ class SharedSearch {
     on_way_.assign(ranks_.size(), {});
     for (Side& side : sides_) side.told = side.least;
   }
-  /// Labels at the borders, to and fro.
   void tell_rims() {
     std::vector<BorderLists<double>> rims;
     const auto take = [&](std::size_t, ValueUnpacker from) { rims.push_back(BorderLists<double>::unpack(from)); };

@@ -349,10 +349,8 @@ std::vector<HelpExample> help_examples(std::string_view verb) {
 }
 
 std::string_view most_used_options(std::string_view verb) {
-  for (const auto& [name, options] : most_used) {
-    if (name == verb) return options;
-  }
-  return {};
+  const auto found = std::ranges::find(most_used, verb, [](const auto& each) { return each.first; });
+  return found == std::end(most_used) ? std::string_view{} : found->second;
 }
 
 }  // namespace warren::tools

@@ -28,7 +28,6 @@ struct ColorMeaning {
 };
 using Legend = std::vector<ColorMeaning>;
 
-/// A list of "color" and "words".
 std::string json_of_legend(const Legend& legend) {
   return json_list_of(legend, ",", [](const ColorMeaning& one) {
     const std::string opacity = one.is_step ? fmt::format("{:02x}", step_opacity) : "";
