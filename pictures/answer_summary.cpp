@@ -120,7 +120,6 @@ std::string planner_text(const Answer& answer) {
   return text;
 }
 
-/// The parts of a price that are paid.
 std::string price_text(const Answer& answer) {
   const PriceParts& price = *answer.price;
   std::string text = "with the length";
@@ -184,7 +183,6 @@ void add_path(std::string& text, const Answer& answer, const Palette& palette) {
                    length_text(answer, answer.problem.clearance)));
 }
 
-/// Why it got no better than it is.
 std::string end_text(const Answer& answer) {
   if (answer.stop_reason) return stop_text(*answer.stop_reason, answer.wanted_memory_bytes);
   if (answer.ended_by == "optimum") return "there is no better one";

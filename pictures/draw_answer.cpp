@@ -54,7 +54,6 @@ void take_lengths(Drawing& drawing) {
   drawing.body.lengths = leg_lengths(drawing.body.poses, drawing.path_turns.empty() ? straight : drawing.path_turns);
 }
 
-/// The body along its path.
 void add_bodies(Drawing& drawing, const RobotSpec& robot, const StateList& states) {
   const bool drives = robot.kind == RobotKind::car;
   drawing.body = {.outline = robot.outline, .radius = robot.radius, .heads = drives};
@@ -72,7 +71,6 @@ void add_bodies(Drawing& drawing, const RobotSpec& robot, const StateList& state
   take_lengths(drawing);
 }
 
-/// Takes what is drawn of roadmaps and trees.
 void add_roadmap(Drawing& drawing, const Answer& answer, ByProducts& made, const Execution& execution) {
   const RobotSpec& robot = answer.problem.robot;
   PlannedRoadmap<Vec2> roadmap;
@@ -206,7 +204,6 @@ void add_choices(Drawing& drawing, const GoalRule& rule, const std::vector<std::
   drawing.layers.push_back(std::move(ways));
 }
 
-/// Views instead of the world.
 Drawing drawing_of_arm(const Scene& scene, const ArmModel& model, const std::vector<double>& start,
                        Path<JointState> path, std::string subtitle, const Execution& execution) {
   if (path.empty()) path.push_back(joint_state(start));

@@ -36,7 +36,6 @@ constexpr std::array<EdgeStyle, 3> edge_styles{{{EdgeState::unchecked, "unchecke
                                                 {EdgeState::blocked, "blocked", "blocked edge", blocked_color},
                                                 {EdgeState::free, "free", "free edge", colors::components[0]}}};
 
-/// The edges in one state.
 Graph edges_in(EdgeState state, const RoadmapArrays& arrays, const Execution& execution) {
   const Graph& all = arrays.candidates;
   execution.reserve((all.vertex_count() + 1) * sizeof(EdgeEnd) + all.targets().size() * sizeof(VertexId));
@@ -54,7 +53,6 @@ Graph edges_in(EdgeState state, const RoadmapArrays& arrays, const Execution& ex
   return {std::move(offsets), std::move(targets)};
 }
 
-/// Draws one roadmap whose arrays are given.
 class RoadmapDrawing {
  public:
   RoadmapDrawing(const Scene& scene, const Roadmap& roadmap, const RoadmapArrays& arrays, const Execution& execution)

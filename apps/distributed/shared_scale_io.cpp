@@ -28,7 +28,6 @@
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/words/option_values.hpp"
-#include "tools/words/planner_words.hpp"
 #include "tools/words/question_words.hpp"
 
 namespace warren::distributed {
@@ -43,7 +42,6 @@ constexpr tools::OptionSpec scale_specs[] = {
     {"--json", "FILE", "write warren.ranks/1; - is standard output"},
 };
 
-/// What a rank has used in one run.
 struct RankUse {
   double cpu_s;
   std::uint64_t bytes_sent, peak_bytes;
@@ -65,7 +63,6 @@ struct RanksRun {
     for (const RankUse& rank : used) all += rank.*figure;
     return all;
   }
-  /// Of the rank that held most.
   std::uint64_t peak_bytes() const { return std::ranges::max(used, {}, &RankUse::peak_bytes).peak_bytes; }
 };
 

@@ -460,41 +460,42 @@ class SharedSearch {
   };
 
   void hold(const OverlayEnds& ends, ToldRoute& route) {
-    const std::vector<Bytes> answers = all(RoundStep::hold, [](std::size_t, ValuePacker&) {});
     std::vector<HeldBand> bands;
-    for (std::size_t b = 0; b < answers.size(); ++b) {
-      ValueUnpacker from(answers[b], fmt::format("rank {}", ranks_[b]));
+    const auto take = [&](std::size_t b, ValueUnpacker from) {
       bands.push_back(HeldBand::unpack(from));
       if (bands[b].lacking_bytes > 0) {
         lack_ = SearchLack{ranks_[b], bands[b].lacking_bytes};
         throw Stopped(StopReason::memory);
       }
-      if (b == 0 || bands[b - 1].cols[above] == bands[b].cols[below]) continue;
+      if (b == 0 || bands[b - 1].cols[above] == bands[b].cols[below]) return;
       throw InputError("tiles", "neighbours do not agree about the border between them",
                        fmt::format("ranks {} and {}", ranks_[b - 1], ranks_[b]));
-    }
+    };
+    all(
+        RoundStep::hold, [](std::size_t, ValuePacker&) {}, take);
     join_bands(bands, ends.direct, execution_, route);
   }
   /// Until nobody's dead ends go on beyond a border.
   void peel() {
     std::vector<ListPair<std::uint64_t>> gone(ranks_.size());
     for (bool goes_on = true; goes_on;) {
-      const std::vector<Bytes> answers =
-          all(RoundStep::peel, [&](std::size_t band, ValuePacker& to) { add_pair(gone[band], to); });
       goes_on = false;
-      gone.assign(ranks_.size(), {});
-      for (std::size_t b = 0; b < answers.size(); ++b) {
-        ValueUnpacker from(answers[b], fmt::format("rank {}", ranks_[b]));
+      std::vector<ListPair<std::uint64_t>> more(ranks_.size());
+      const auto take = [&](std::size_t b, ValueUnpacker from) {
         auto downwards = from.take_list<std::uint64_t>();
         auto upwards = from.take_list<std::uint64_t>();
         goes_on = goes_on || !downwards.empty() || !upwards.empty();
-        if (b > 0) gone[b - 1][above] = std::move(downwards);
-        if (b + 1 < answers.size()) gone[b + 1][below] = std::move(upwards);
-      }
+        if (b > 0) more[b - 1][above] = std::move(downwards);
+        if (b + 1 < more.size()) more[b + 1][below] = std::move(upwards);
+      };
+      all(
+          RoundStep::peel, [&](std::size_t band, ValuePacker& to) { add_pair(gone[band], to); }, take);
+      gone = std::move(more);
     }
   }
   void search() {
-    take_states(all(RoundStep::begin, [](std::size_t, ValuePacker&) {}), [](ValueUnpacker&) {});
+    all_states(
+        RoundStep::begin, [](std::size_t, ValuePacker&) {}, [](ValueUnpacker&) {});
     for (std::uint64_t round = 0; sides_[0].told + sides_[1].told < best_.length; ++round) {
       execution_.check();
       settle_round(round_size(round));
@@ -514,42 +515,39 @@ class SharedSearch {
         if (!is_done[side]) bucket[side] = own.least;
       }
       if (is_done[0] && is_done[1]) return;
-      const std::vector<Bytes> answers = all(RoundStep::settle, [&](std::size_t band, ValuePacker& to) {
+      const auto say = [&](std::size_t band, ValuePacker& to) {
         on_way_[band].pack(to);
         for (const double steps : bucket) to.add(steps);
-      });
+      };
       std::vector<ToldLabels> told;
-      take_states(answers, [&](ValueUnpacker& from) { told.push_back(ToldLabels::unpack(from)); });
+      all_states(RoundStep::settle, say, [&](ValueUnpacker& from) { told.push_back(ToldLabels::unpack(from)); });
       tell(told);
     }
   }
   void exchange() {
-    const std::vector<Bytes> answers =
-        all(RoundStep::exchange, [&](std::size_t band, ValuePacker& to) { on_way_[band].pack(to); });
-    on_way_.assign(ranks_.size(), {});
-    take_states(answers, [&](ValueUnpacker& from) {
+    const auto take = [&](ValueUnpacker& from) {
       const auto met = from.take<Meeting>();
       if (std::tie(met.length, met.tile, met.place) < std::tie(best_.length, best_.tile, best_.place)) best_ = met;
-    });
+    };
+    all_states(
+        RoundStep::exchange, [&](std::size_t band, ValuePacker& to) { on_way_[band].pack(to); }, take);
+    on_way_.assign(ranks_.size(), {});
     for (Side& side : sides_) side.told = side.least;
   }
-  /// Labels at the borders, to and fro.
   void tell_rims() {
-    const std::vector<Bytes> answers =
-        all(RoundStep::rims, [](std::size_t, ValuePacker& to) { to.add(std::uint32_t{0}); });
     std::vector<BorderLists<double>> rims;
-    for (std::size_t b = 0; b < answers.size(); ++b) {
-      ValueUnpacker from(answers[b], fmt::format("rank {}", ranks_[b]));
-      rims.push_back(BorderLists<double>::unpack(from));
-    }
+    const auto take = [&](std::size_t, ValueUnpacker from) { rims.push_back(BorderLists<double>::unpack(from)); };
+    all(
+        RoundStep::rims, [](std::size_t, ValuePacker& to) { to.add(std::uint32_t{0}); }, take);
     const std::vector<double> none;
-    all(RoundStep::rims, [&](std::size_t b, ValuePacker& to) {
+    const auto tell = [&](std::size_t b, ValuePacker& to) {
       to.add(std::uint32_t{1});
       for (std::size_t side = 0; side < side_count; ++side) {
         to.add_list(b > 0 ? rims[b - 1].of[side][above] : none);
         to.add_list(b + 1 < rims.size() ? rims[b + 1].of[side][below] : none);
       }
-    });
+    };
+    all(RoundStep::rims, tell, [](std::size_t, const ValueUnpacker&) {});
   }
   /// The way back from the meeting to the side's end; steps lead to the next key of it.
   std::vector<RouteKey> trace(std::size_t side) {
@@ -576,9 +574,10 @@ class SharedSearch {
     }
   }
 
-  /// Asks each band, by number: body(band, to) adds what it needs. The answers, by band.
-  template <class Body>
-  std::vector<Bytes> all(RoundStep step, const Body& body) {
+  /// Asks each band, by number: body(band, to) adds what it needs; take(band, from) takes its answer, when all have
+  /// answered.
+  template <class Body, class Take>
+  void all(RoundStep step, const Body& body, const Take& take) {
     std::vector<Bytes> messages;
     std::vector<unsigned> awaited;
     for (std::size_t band = 0; band < ranks_.size(); ++band) {
@@ -590,13 +589,12 @@ class SharedSearch {
       requests_.ask_one(ranks_[band], Request::rounds, messages[band]);
       awaited.push_back(ranks_[band]);
     }
-    std::vector<Bytes> found(ranks_.size());
-    if (ranks_[0] == 0) found[0] = one(0, messages[0]);
-    std::vector<Bytes> others = requests_.answers(std::move(awaited));
+    const Bytes own = ranks_[0] == 0 ? one(0, messages[0]) : Bytes();
+    const std::vector<Bytes> others = requests_.answers(std::move(awaited));
     for (std::size_t band = 0; band < ranks_.size(); ++band) {
-      if (ranks_[band] > 0) found[band] = std::move(others[ranks_[band]]);
+      const Bytes& answer = ranks_[band] == 0 ? own : others[ranks_[band]];
+      take(band, ValueUnpacker(answer, fmt::format("rank {}", ranks_[band])));
     }
-    return found;
   }
   Bytes one(std::size_t band, const Bytes& message) {
     if (ranks_[band] > 0) {
@@ -608,22 +606,21 @@ class SharedSearch {
     rounds_->serve(from, to);
     return to.take();
   }
-  /// take(from) takes what follows the states in an answer.
-  template <class Take>
-  void take_states(const std::vector<Bytes>& answers, const Take& take) {
+  /// The same of a step that is answered by states: take(from) takes what follows them.
+  template <class Body, class Take>
+  void all_states(RoundStep step, const Body& body, const Take& take) {
     for (Side& side : sides_) {
       side.least = nothing_open;
       side.settled = 0;
     }
-    for (const Bytes& answer : answers) {
-      ValueUnpacker from(answer, "ranks");
+    all(step, body, [&](std::size_t, ValueUnpacker from) {
       for (Side& side : sides_) {
         const auto state = from.take<SideState>();
         side.least = std::min(side.least, state.least);
         side.settled += state.settled;
       }
       take(from);
-    }
+    });
   }
   /// What bands tell over their borders is on its way to their neighbours, until the next message.
   void tell(const std::vector<ToldLabels>& told) {

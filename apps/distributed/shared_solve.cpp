@@ -23,8 +23,6 @@
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/verbs/answer_command.hpp"
 #include "tools/words/option_values.hpp"
-#include "tools/words/output_words.hpp"
-#include "tools/words/planner_words.hpp"
 #include "tools/words/question_words.hpp"
 
 namespace warren::distributed {

@@ -14,7 +14,7 @@
 #include "solve/answer/write_answer_io.hpp"
 #include "solve/paths/path_file_io.hpp"
 #include "solve/paths/timed_path.hpp"
-#include "tools/words/output_words.hpp"
+#include "tools/words/question_words.hpp"
 
 namespace warren::python {
 namespace py = pybind11;

@@ -8,7 +8,7 @@
 #include "pictures/formats/write_picture.hpp"
 #include "scenes/text/output_file_io.hpp"
 #include "solve/answer/world_account.hpp"
-#include "tools/words/output_words.hpp"
+#include "tools/words/question_words.hpp"
 #include "worlds/rasters/lattice_polygons.hpp"
 
 namespace warren::python {

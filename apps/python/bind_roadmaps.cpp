@@ -17,7 +17,6 @@
 #include "solve/kept/export_roadmap.hpp"
 #include "solve/kept/roadmap_file_io.hpp"
 #include "tools/words/option_values.hpp"
-#include "tools/words/planner_words.hpp"
 #include "tools/words/question_words.hpp"
 
 namespace warren::python {

@@ -22,7 +22,6 @@
 #include "solve/solve.hpp"
 #include "tools/screen/world_files.hpp"
 #include "tools/verbs/cmd_compare.hpp"
-#include "tools/words/planner_words.hpp"
 #include "tools/words/question_words.hpp"
 
 namespace warren::python {
@@ -55,12 +54,6 @@ void join_hole(py::dict& keywords) {
   keywords["alternatives"] = word_of(count, "alternatives") + "," + word_of(hole, "hole");
 }
 
-/// A file; none: nobody asks.
-std::optional<std::string> take_certificate(py::dict& keywords) {
-  const py::object file = keywords.attr("pop")("certificate", py::none());
-  return file.is_none() ? std::nullopt : std::optional(word_of(file, "certificate"));
-}
-
 void write_certificate(const ByProducts& made, const std::string& file, const Execution& execution) {
   if (made.certificate) return write_npy(*made.certificate, file, execution);
   constexpr const char* none = "certificate: there is no bound of all paths to prove, so it is not written";
@@ -72,7 +65,7 @@ KeptAnswer solve_scene(const Scene& scene, py::dict keywords, bool keep, bool ex
   CallLimits limits = take_limits(keywords);
   limits.tell_improvements(std::move(on_improvement));
   const std::optional<Answer> old = take_old_answer(keywords);
-  const std::optional<std::string> certificate = take_certificate(keywords);
+  const auto certificate = take_word(keywords, "certificate");
   join_hole(keywords);
   const tools::Arguments words = arguments_of(made_once<solving>(), keywords);
   Question question = tools::question_words(words);
@@ -113,7 +106,7 @@ py::dict told(const Verdict& verdict, const std::optional<NarrowPlace>& narrow) 
 /// With explain the narrowest place of a free path, too; "ended" says what stopped the search for it.
 py::dict judge(const Scene& scene, RecordedAnswer answer, py::dict keywords) {
   CallLimits limits = take_limits(keywords);
-  const std::optional<std::string> certificate = take_certificate(keywords);
+  const auto certificate = take_word(keywords, "certificate");
   const tools::Arguments words = arguments_of(made_once<verifying>(), keywords);
   Question question = tools::question_words(words);
   std::optional<NarrowPlace> narrow;
@@ -140,7 +133,7 @@ py::dict judge(const Scene& scene, RecordedAnswer answer, py::dict keywords) {
 bool is_arm_of_files(const Scene& scene, const py::dict& keywords) {
   py::dict words = keywords.attr("copy")();
   take_limits(words);
-  take_certificate(words);
+  take_word(words, "certificate");
   const Question question = tools::question_words(arguments_of(made_once<verifying>(), words));
   return robot_of(scene, question).kind == RobotKind::urdf;
 }
@@ -205,10 +198,9 @@ KeptAnswer replanned(Replanner& replanner, const std::vector<double>& start, py:
 
 /// Without a world random graphs alone.
 studies::Comparison compare(const Scene* scene, py::dict keywords) {
-  const py::object each_budget = keywords.attr("pop")("budget", py::none());
-  const py::object word = each_budget.is_none() ? each_budget : py::object(py::str(budget_word(each_budget)));
+  const auto each_budget = take_word(keywords, "budget", "s");
   CallLimits limits = take_limits(keywords);
-  keywords["budget"] = word;
+  keywords["budget"] = each_budget;
   std::vector<std::string> world;
   if (scene != nullptr) world.push_back(scene->source);
   const tools::CompareOptions options =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/python/library_calls.hpp"
+#include "apps/python/bind.hpp"
 
 #include <cxxabi.h>
 #include <fmt/format.h>
@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <csignal>
 #include <exception>
-#include <string_view>
 
 #include "core/base/error.hpp"
 #include "scenes/text/human_units.hpp"
@@ -336,26 +336,20 @@ tools::Arguments arguments_of(const tools::Command& command, const py::dict& key
   return {command, words};
 }
 
-std::string budget_word(py::handle value) {
-  const std::string text = word_of(value, "budget");
-  return py::isinstance<py::str>(value) ? text : text + "s";
+std::optional<std::string> take_word(py::dict& keywords, const char* keyword, const char* unit) {
+  const py::object value = keywords.attr("pop")(keyword, py::none());
+  if (value.is_none()) return std::nullopt;
+  return word_of(value, keyword) + (py::isinstance<py::str>(value) ? "" : unit);
 }
 
 CallLimits take_limits(py::dict& keywords) {
-  const auto take = [&](const char* keyword) -> py::object { return keywords.attr("pop")(keyword, py::none()); };
-  const auto word = [&](const char* keyword, std::string_view unit) -> std::optional<std::string> {
-    const py::object value = take(keyword);
-    if (value.is_none()) return std::nullopt;
-    const std::string text = word_of(value, keyword);
-    return py::isinstance<py::str>(value) ? text : text + std::string(unit);
-  };
-  const auto threads = word("threads", "");
-  const py::object budget = take("budget");
-  const auto memory = word("memory", "B");
-  const py::object progress = take("progress");
+  const auto threads = take_word(keywords, "threads");
+  const auto budget = take_word(keywords, "budget", "s");
+  const auto memory = take_word(keywords, "memory", "B");
+  const py::object progress = keywords.attr("pop")("progress", py::none());
   if (!progress.is_none() && PyCallable_Check(progress.ptr()) == 0) refuse_type("progress", "a function", progress);
   return {threads ? tools::threads_value("--threads", *threads) : 0,
-          budget.is_none() ? std::nullopt : std::optional(tools::duration_value("--budget", budget_word(budget))),
+          budget ? std::optional(tools::duration_value("--budget", *budget)) : std::nullopt,
           memory ? std::optional(tools::memory_value("--memory", *memory)) : std::nullopt, progress};
 }
 

@@ -45,7 +45,6 @@ std::vector<std::string> option_parts(const Contender& contender) {
   return parts;
 }
 
-/// What a contender's name in a plot is made of.
 std::vector<std::string> name_parts(const Contender& c, bool with_planner) {
   if (!c.dealt.empty()) {
     std::vector<std::string> parts{c.planner};
@@ -63,22 +62,10 @@ std::vector<std::string> name_parts(const Contender& c, bool with_planner) {
 
 /// Where the line of least squares through these points, both axes as logarithms, rises through 1.
 std::optional<double> rise_through_one(const std::vector<Vec2>& points) {
-  std::vector<Vec2> logarithms;
-  Vec2 mean;
-  for (const Vec2 p : points) {
-    logarithms.push_back({std::log(p.x), std::log(p.y)});
-    mean = mean + logarithms.back();
-  }
-  mean = 1.0 / static_cast<double>(points.size()) * mean;
-  double xx = 0.0;
-  double xy = 0.0;
-  for (const Vec2 p : logarithms) {
-    xx += (p.x - mean.x) * (p.x - mean.x);
-    xy += (p.x - mean.x) * (p.y - mean.y);
-  }
-  if (xx <= 0.0 || xy / xx <= 0.0) return std::nullopt;  // all x are alike, or it falls
-  const double slope = xy / xx;
-  const double size = std::exp(-(mean.y - slope * mean.x) / slope);
+  const auto slope = common_exponent(std::span(&points, 1));
+  if (!slope || *slope <= 0.0) return std::nullopt;  // all x are alike, or it falls
+  const Vec2 mean = mean_logarithms(points);
+  const double size = std::exp(-(mean.y - *slope * mean.x) / *slope);
   return std::isfinite(size) ? std::optional(size) : std::nullopt;
 }
 

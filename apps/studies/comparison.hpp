@@ -125,6 +125,12 @@ struct SweepCurve {
   std::string queue;
   std::string library;
   std::vector<Vec2> points;  ///< vertices, seconds > 0; ascending vertices
+
+  /// What sets it apart from others of its search: a peer's name, or the queue; `alone` where it has none.
+  std::string name(const std::string& alone) const {
+    if (library != "warren") return library;
+    return queue.empty() ? alone : queue;
+  }
 };
 
 /// A curve a search, queue and library, in the order of the contenders; each point is the geometric mean of the medians

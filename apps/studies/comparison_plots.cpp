@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Plots of a comparison. Random graphs: for each search that takes a queue, times against size, and beside them the
-// ratios to the heap, whose crossing of 1 is where array and heap cross. Else: what options that were dealt out do
-// for each contender the share of its runs that had found a path, against time, and how its lengths, times and
-// clearances are spread; of planners that get better what their paths cost against time.
+// Plots of a comparison.
 
 #include <fmt/format.h>
 
@@ -30,15 +27,10 @@ Plot solved_plot(const ComparedProblem& problem) {
           .all_y = 100.0};
 }
 
-std::string series_name(const SweepCurve& curve) {
-  if (curve.library != "warren") return curve.library;
-  return curve.queue.empty() ? curve.search : curve.queue;
-}
-
 /// Its place among all names: the same in the plots of all searches.
 std::size_t color_of(const std::vector<SweepCurve>& curves, const std::string& name) {
   std::vector<std::string> names;
-  for (const SweepCurve& curve : curves) add_once(names, series_name(curve));
+  for (const SweepCurve& curve : curves) add_once(names, curve.name(curve.search));
   return add_once(names, name);
 }
 
@@ -50,8 +42,8 @@ Plot time_plot(const std::vector<SweepCurve>& curves, const std::string& search)
             .log_y = true};
   for (const SweepCurve& curve : curves) {
     if (curve.search != search) continue;
-    plot.series.push_back(
-        {.name = series_name(curve), .points = curve.points, .color = color_of(curves, series_name(curve))});
+    const std::string name = curve.name(search);
+    plot.series.push_back({.name = name, .points = curve.points, .color = color_of(curves, name)});
   }
   return plot;
 }
@@ -115,10 +107,6 @@ std::vector<Plot> share_plots(const Comparison& comparison) {
   return plots;
 }
 
-// Box plots: how lengths, times and clearances of each contender's runs are spread, how many runs there were and how
-// many of them found a path.
-
-/// One of the figures that are drawn.
 struct BoxedFigure {
   std::string_view name;
   std::string_view label;  ///< of its axis
@@ -181,14 +169,11 @@ std::optional<BoxPlot> box_plot(const Comparison& comparison, std::size_t proble
   return any_differ ? std::optional(std::move(plot)) : std::nullopt;
 }
 
-// Plots of what options that were dealt out do. Where a planner takes the values of one option in turn: success with
-// its interval, lengths and times with their quartiles, against its value. Where it takes those of more: the same as
-// heat maps over the two options with most values, one row of maps for each way to take the others, and as lines over
-// one of the two, one line a value of the other.
+// Plots of what options that were dealt out do. Where a planner takes the values of more than one, they are heat maps
+// over the two options with most values, one row of maps for each way to take the others.
 
 using Words = std::vector<std::pair<std::string, std::string>>;
 
-/// One of the figures that are shown against options.
 struct ShownFigure {
   std::string_view name;
   std::string_view label;                                 ///< of its axis
@@ -300,8 +285,9 @@ HeatMap heat_map(const Family& family, const ShownFigure& figure) {
 }
 
 /// Over the values of an option. Nothing of an option whose values are no numbers.
-std::optional<PlotSeries> series_of(const Family& family, const std::string& option, const ShownFigure& figure) {
-  PlotSeries series{.name = family.name};
+void add_series(Plot& plot, const Family& family, const std::string& option, const ShownFigure& figure,
+                std::size_t color) {
+  PlotSeries series{.name = family.name, .color = color};
   std::map<double, const Contender*> by_value;
   for (const Contender* c : family.members) {
     if (const auto x = number_in_word(word_of(c->dealt, option))) by_value[*x] = c;
@@ -313,7 +299,7 @@ std::optional<PlotSeries> series_of(const Family& family, const std::string& opt
     series.points.push_back({x, *y});
     series.spans.push_back(figure.span(row).value_or(Vec2{*y, *y}));
   }
-  return by_value.size() < 2 || series.points.empty() ? std::nullopt : std::optional(std::move(series));
+  if (by_value.size() > 1 && !series.points.empty()) plot.series.push_back(std::move(series));
 }
 
 Plot plot_over(const std::string& option, const ShownFigure& figure) {
@@ -336,10 +322,7 @@ std::optional<Plot> sweep_plot(const Family& family, const ShownFigure& figure) 
       Family line{fmt::format("{} {}", spelled(other), value), {}, {}};
       std::ranges::copy_if(family.members, std::back_inserter(line.members),
                            [&](const Contender* c) { return word_of(c->dealt, other) == value; });
-      auto series = series_of(line, family.axes[x], figure);
-      if (!series) continue;
-      series->color = static_cast<std::size_t>(&value - values.data());
-      plot.series.push_back(std::move(*series));
+      add_series(plot, line, family.axes[x], figure, static_cast<std::size_t>(&value - values.data()));
     }
     if (!plot.series.empty() && plot.series.size() <= colors::series.size()) return plot;
   }
@@ -349,22 +332,18 @@ std::optional<Plot> sweep_plot(const Family& family, const ShownFigure& figure) 
 /// Planners that take the values of the same option are in one plot.
 std::vector<PlotSheet> line_panels(const std::vector<Family>& families) {
   std::vector<std::string> options;
+  std::vector<const Family*> lines;
   for (const Family& family : families) {
-    if (family.axes.size() == 1) add_once(options, family.axes[0]);
+    if (family.axes.size() != 1) continue;
+    add_once(options, family.axes[0]);
+    lines.push_back(&family);
   }
   std::vector<PlotSheet> panels;
   for (const std::string& option : options) {
     for (const ShownFigure& figure : figures) {
       Plot plot = plot_over(option, figure);
-      std::size_t color = 0;  // of a family the same in all plots
-      for (const Family& family : families) {
-        if (family.axes.size() != 1) continue;
-        const std::size_t own = color++;
-        if (family.axes[0] != option) continue;
-        auto series = series_of(family, option, figure);
-        if (!series) continue;
-        series->color = own;
-        plot.series.push_back(std::move(*series));
+      for (std::size_t i = 0; i < lines.size(); ++i) {  // a family's colour is the same in all plots
+        if (lines[i]->axes[0] == option) add_series(plot, *lines[i], option, figure, i);
       }
       if (!plot.series.empty()) panels.push_back(sheet_of(plot));
     }
@@ -372,10 +351,7 @@ std::vector<PlotSheet> line_panels(const std::vector<Family>& families) {
   return panels;
 }
 
-// What a planner's runs had at each moment: the median of what their best paths until then cost, its quartiles, and the
-// share of the runs that had a path at all. A run costs infinitely much until its first path. Plots show some hundred
-// moments, evenly on a logarithmic axis; the figures at each are exact.
-// O(moments · runs · log runs).
+// Curves of cost show some hundred moments, evenly on a logarithmic axis. O(moments · runs · log runs).
 
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr double earliest_s = 1e-6;  // a logarithmic axis has no zero
@@ -390,7 +366,6 @@ struct CurveTimes {
   }
 };
 
-/// Does it get better until it is stopped?
 bool has_curve(const Contender& contender) {
   const auto planner = enum_named<PlannerKind>(contender.planner);
   return planner && gets_better(*planner);

@@ -99,17 +99,12 @@ std::string time_at(const SweepCurve& curve, double size) {
   return found == curve.points.end() ? "-" : precise_seconds(found->y);
 }
 
-std::string curve_name(const SweepCurve& curve) {
-  if (curve.library != "warren") return curve.library;
-  return curve.queue.empty() ? "median" : curve.queue;
-}
-
 TextTable table_of(const std::vector<SweepCurve>& curves, const std::string& search) {
   TextTable table{{search + " on"}};
   std::set<double> sizes;
   for (const SweepCurve& curve : curves) {
     if (curve.search != search) continue;
-    table.head.push_back(curve_name(curve));
+    table.head.push_back(curve.name("median"));
     for (const Vec2 p : curve.points) sizes.insert(p.x);
   }
   for (const double size : sizes) {
@@ -146,7 +141,6 @@ std::string crossing_text(const QueueCrossing& c) {
   return text;
 }
 
-/// The tables of the summary.
 std::vector<TextTable> comparison_tables(const Comparison& comparison) {
   std::vector<TextTable> tables;
   for (std::size_t problem = 0; problem < comparison.problems.size(); ++problem) {
@@ -169,8 +163,7 @@ std::vector<TextTable> comparison_tables(const Comparison& comparison) {
   return tables;
 }
 
-// In files: as warren.compare/1 (a row a contender, null where nothing is known), as CSV, and as the log that OMPL's
-// benchmarks write.
+// As warren.compare/1: a row a contender, null where nothing is known.
 
 using Json = nlohmann::ordered_json;
 

@@ -206,8 +206,7 @@ struct NamedPath {
   std::vector<Vec2> points;  ///< arcs as chords
 };
 
-/// Writes FOLDER/NAME. Returns what is drawn otherwise than usual, a line each that begins with the name. Throws
-/// WriteError, Stopped.
+/// Returns what is drawn otherwise than usual, a line each that begins with the name.
 std::vector<std::string> write_named(const std::string& folder, const std::string& name, const Picture& picture,
                                      const PictureOptions& look, const Execution& execution) {
   std::vector<std::string> notes = write_picture(folder + "/" + name, picture, look, execution);
@@ -215,8 +214,7 @@ std::vector<std::string> write_named(const std::string& folder, const std::strin
   return notes;
 }
 
-/// The same of one figure of several paths, each in a colour of its own with its name in the legend; where paths run
-/// along the same stretches they take turns in dashes. A map's scene has its border walls.
+/// The same of one figure of several paths, each in a colour of its own. A map's scene has its border walls.
 std::vector<std::string> draw_paths(const std::string& folder, const std::string& name, Picture picture,
                                     const std::vector<NamedPath>& paths, const PictureOptions& look,
                                     const Execution& execution) {
@@ -257,16 +255,16 @@ const ComparedRun* median_run(const Contender& contender) {
 
 class ContestPictures {
  public:
-  ContestPictures(const Scene& scene, const PlannerContestOptions& options, const std::string& folder,
+  ContestPictures(const Scene& scene, std::uint64_t first_seed, const std::string& folder, const PictureOptions& look,
                   const Execution& execution)
-      : scene_(scene), options_(options), folder_(folder), execution_(execution) {}
+      : scene_(scene), first_seed_(first_seed), folder_(folder), look_(look), execution_(execution) {}
 
   void draw(const Contender& contender, const PlannerContender& asked) {
     const ComparedRun* run = median_run(contender);
-    const std::uint64_t seed = run != nullptr ? run->seed : options_.first_seed;
+    const std::uint64_t seed = run != nullptr ? run->seed : first_seed_;
     ByProducts made;
     const Answer answer = solve_contender(scene_, asked, seed, execution_, &made);
-    const Drawing drawing = drawing_of(scene_, answer, std::move(made), execution_, options_.look.heading);
+    const Drawing drawing = drawing_of(scene_, answer, std::move(made), execution_, look_.heading);
     const std::string said = options_text(contender);
     const std::string title = fmt::format("{}, {}{}seed {}: {}", title_of(scene_), contender.planner,
                                           said.empty() ? ", " : ", " + said + ", ", seed, name_of(answer.outcome));
@@ -284,11 +282,11 @@ class ContestPictures {
       write(name, title_of(scene_) + ": " + page.id, picture_of(scene_, drawing, page));
     }
   }
-  /// The paths of all contenders in one figure. Returns what was drawn otherwise than usual, of all pictures.
+  /// Returns what was drawn otherwise than usual, of all pictures.
   std::vector<std::string> finish() {
     if (paths_.size() > 1) {
       overview_.subtitle = fmt::format("{}\nof each planner the path of median length", description_of(scene_));
-      keep(draw_paths(folder_, unused("paths") + ".svg", overview_, paths_, options_.look, execution_));
+      keep(draw_paths(folder_, unused("paths") + ".svg", overview_, paths_, look_, execution_));
     }
     return std::move(notes_);
   }
@@ -303,12 +301,13 @@ class ContestPictures {
   void write(const std::string& name, const std::string& title, Picture picture) {
     picture.title = title;
     picture.description = description_of(scene_);
-    keep(write_named(folder_, name + ".svg", picture, options_.look, execution_));
+    keep(write_named(folder_, name + ".svg", picture, look_, execution_));
   }
 
   const Scene& scene_;
-  const PlannerContestOptions& options_;
+  std::uint64_t first_seed_;
   const std::string& folder_;
+  const PictureOptions& look_;
   const Execution& execution_;
   std::set<std::string> names_;
   std::vector<NamedPath> paths_;
@@ -316,7 +315,6 @@ class ContestPictures {
   std::vector<std::string> notes_;
 };
 
-/// A path that one or more variants of a search found.
 struct FoundPath {
   SearchVariant first;
   std::size_t variants = 1;
@@ -324,7 +322,6 @@ struct FoundPath {
   RawVector<VertexId> path = {};
 };
 
-/// Those that found something, in the order of the options.
 std::vector<FoundPath> found_paths(const SearchGraph& graph, const SearchContestOptions& options,
                                    const Execution& execution) {
   std::vector<FoundPath> all;
@@ -371,8 +368,8 @@ std::vector<PolygonSet> lines_side_by_side(std::span<const std::vector<Vec2>> pa
 
 std::vector<std::string> draw_contest(const Scene& scene, const PlannerContestOptions& options,
                                       const Comparison& comparison, const std::string& folder,
-                                      const Execution& execution) {
-  ContestPictures pictures(scene, options, folder, execution);
+                                      const PictureOptions& look, const Execution& execution) {
+  ContestPictures pictures(scene, options.first_seed, folder, look, execution);
   for (std::size_t i = 0; i < options.contenders.size(); ++i) {
     execution.check();
     pictures.draw(comparison.contenders[i], options.contenders[i]);

@@ -25,7 +25,7 @@ namespace warren::studies {
 /// usual, a line each. Throws WriteError, Stopped.
 std::vector<std::string> draw_contest(const Scene& scene, const PlannerContestOptions& options,
                                       const Comparison& comparison, const std::string& folder,
-                                      const Execution& execution);
+                                      const PictureOptions& look, const Execution& execution);
 
 /// A text as part of a file's name: letters and digits as they are, and dashes; all else as one `between`, but at the
 /// ends.

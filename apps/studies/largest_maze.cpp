@@ -25,7 +25,6 @@ constexpr std::uint8_t reached = 4;
 constexpr int came_by_shift = 3;  ///< bits 3 and 4 of a reached cell's byte: the direction of the step into it
 constexpr std::size_t poll_every = std::size_t{1} << 16;
 
-/// Breadth-first search over the cells' own bytes.
 class CellWalk {
  public:
   CellWalk(MazeCells& cells, const Execution& execution)
@@ -46,7 +45,6 @@ class CellWalk {
     }
     return (bytes_[goal] & reached) != 0;
   }
-  /// The steps that lead from start to goal.
   RawVector<Direction> steps(std::size_t start, std::size_t goal) const {
     RawVector<Direction> steps;
     for (std::size_t i = goal; i != start;) {
@@ -150,7 +148,6 @@ std::uint32_t extent(double cells) {
   return static_cast<std::uint32_t>(std::clamp(std::round(cells), 1.0, 4294967295.0));
 }
 
-/// One search; mazes and runs come from maze_trial.
 class LargestSearch {
  public:
   LargestSearch(const LargestOptions& options, const Execution& execution,
@@ -234,7 +231,6 @@ class LargestSearch {
     note_(fmt::format("{:>6} x {:<6} too little memory to generate it", maze.rows, maze.cols));
     return std::nullopt;
   }
-  /// A size that is expected not to fit is not begun.
   bool has_memory_for(const MazeOptions& maze) {
     const double cells = static_cast<double>(maze.rows) * maze.cols;
     const auto expected = static_cast<std::size_t>(bytes_a_cell_ * cells);
@@ -306,7 +302,6 @@ std::string headline(const LargestOptions& options, const LargestResult& result,
                      human_seconds(options.budget_s));
 }
 
-/// Of the largest size: what was solved, how fast, with how much memory; and the bar. There is one.
 void add_best(std::string& text, const LargestOptions& options, const LargestResult& result, const Palette& palette) {
   const MazeTrial& median = median_trial(result);
   const auto [fastest, slowest] = std::ranges::minmax_element(result.best, {}, &MazeTrial::solve_s);
@@ -368,7 +363,6 @@ void add_limit(std::string& text, const LargestOptions& options, const LargestRe
   }
 }
 
-/// The maze's seeds at the largest size, spread of their times, rate, memory a cell.
 void add_figures(Json& json, const LargestResult& result) {
   if (result.best.empty()) return;
   const MazeTrial& median = median_trial(result);

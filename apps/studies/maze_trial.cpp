@@ -31,26 +31,16 @@ MazeTrial solve_trial(const Scene& scene, const MazeOptions& maze, const Questio
   StageAccount account;
   within.account = &account;
   const SolveKind kind = is_unmade(scene) ? streamed_kind() : walls_kind();
-  const Answer answer = kind.solve({how, scene, asked, how.planner.value_or(PlannerKind::prm), within});
-  const auto reason = answer.outcome == Outcome::stopped ? answer.stop_reason : std::nullopt;
-  if (reason && is_signal(*reason)) throw Stopped{*reason};
-  return {.rows = maze.rows,
-          .cols = maze.cols,
-          .seed = maze.seed,
-          .threads = thread_count(execution.threads),
-          .planner = answer.planner,
-          .sampler = answer.sampler,
-          .pipeline = answer.pipeline,
-          .outcome = answer.outcome,
-          .stop_reason = reason,
-          .verified = answer.verified,
-          .length = answer.length,
-          .clearance = problem.clearance,
-          .generate_s = 0.0,
-          .solve_s = answer.solve_s,
-          .seconds = answer.seconds,
-          .costs = account.costs(),
-          .peak_memory_bytes = peak_resident_bytes()};
+  MazeTrial trial{kind.solve({how, scene, asked, how.planner.value_or(PlannerKind::prm), within}), maze.rows, maze.cols,
+                  problem.clearance};
+  if (trial.outcome != Outcome::stopped) trial.stop_reason.reset();
+  if (trial.stop_reason && is_signal(*trial.stop_reason)) throw Stopped{*trial.stop_reason};
+  trial.seed = maze.seed;
+  trial.costs = account.costs();
+  tell_process(trial, within);
+  trial.path = {};
+  trial.states = {};
+  return trial;
 }
 
 std::string planner_text(const MazeTrial& trial) {

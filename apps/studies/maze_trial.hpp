@@ -5,38 +5,24 @@
 
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
-#include <optional>
 #include <string>
-#include <vector>
 
-#include "core/base/solution.hpp"
 #include "core/run/execution.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "scenes/scene/scene.hpp"
+#include "solve/answer/answer.hpp"
 #include "solve/question/question.hpp"
 #include "solve/question/solve_options.hpp"
 
 namespace warren::studies {
 
-/// An outcome with its figures.
-struct MazeTrial {
+/// An answer without its path. Its stop_reason is time or memory, and only of stopped; its peak of memory is that from
+/// walls in memory on, walls included.
+struct MazeTrial : Answer {
   std::uint32_t rows = 0;
   std::uint32_t cols = 0;
-  std::uint64_t seed = 1;
-  unsigned threads = 1;
-  std::string planner;
-  std::string sampler;
-  std::string pipeline;  ///< plain, tiled or streamed; only for prm
-  Outcome outcome = Outcome::stopped;
-  std::optional<StopReason> stop_reason;  ///< time or memory; only for stopped
-  bool verified = false;
-  double length = 0.0;
   double clearance = 0.0;
   double generate_s = 0.0;
-  double solve_s = 0.0;
-  StageTimes seconds;
-  std::vector<StageCost> costs;       ///< of each link
-  std::size_t peak_memory_bytes = 0;  ///< from walls in memory on, walls included
 
   double cells() const { return static_cast<double>(rows) * static_cast<double>(cols); }
 };

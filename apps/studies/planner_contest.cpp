@@ -18,7 +18,6 @@
 namespace warren::studies {
 namespace {
 
-/// A turn that a contender takes, and what comes of it.
 struct Turn {
   std::size_t contender;
   std::uint64_t seed;
@@ -236,7 +235,6 @@ void check_count(std::size_t contenders, std::size_t times) {
   throw UsageError(fmt::format("@planners: more than {} contenders come of these lists; shorten one", most_contenders));
 }
 
-/// Every way to give the contenders one of the values each.
 std::vector<PlannerContender> dealt(const std::vector<PlannerContender>& contenders, const DealtOption& list) {
   check_count(contenders.size(), list.values.size());
   std::vector<PlannerContender> all;

@@ -13,7 +13,6 @@
 #include "apps/studies/comparison.hpp"
 #include "core/base/types.hpp"
 #include "core/run/execution.hpp"
-#include "pictures/model/picture_options.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/answer/answer.hpp"
 #include "solve/answer/by_products.hpp"
@@ -68,8 +67,6 @@ struct PlannerContestOptions {
   /// Runs go beside each other, each on one thread, as many as the execution has: other times, the same figures else.
   bool parallel = false;
   double budget_s = std::numeric_limits<double>::infinity();  ///< of each run's solve_s
-  std::string pictures = {};                                  ///< the folder that takes them; empty: none are drawn
-  PictureOptions look = {};
 };
 
 /// May another seed give another answer? What trees, samples and shortcuts draw is random; lattices, cells, visibility

@@ -11,7 +11,6 @@
 #include <set>
 #include <tuple>
 
-#include "apps/studies/statistics.hpp"
 #include "apps/studies/study_report.hpp"
 #include "pictures/plots/plot.hpp"
 #include "solve/answer/answer.hpp"
@@ -19,7 +18,6 @@
 namespace warren::studies {
 namespace {
 
-/// One study: mazes outside, runs inside.
 class ScalingStudy {
  public:
   ScalingStudy(const ScalingOptions& options, const Execution& execution,
@@ -108,7 +106,6 @@ auto in_groups(const Items& items, const KeyOf& key_of) {
   return groups;
 }
 
-/// Names of all stages, in the order of the work.
 std::vector<std::string> stage_names() {
   StageTimes all{0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1};  // what is zero may go unnamed: reading and generating do
   std::vector<std::string> names;
@@ -127,7 +124,6 @@ std::vector<std::string> all_stages() {
   return stages;
 }
 
-/// The seconds of one stage, of one link, or of "solve".
 double seconds_of(const MazeTrial& trial, std::string_view stage) {
   if (stage == "solve") return trial.solve_s;
   for (const auto& [name, seconds] : named_stages(trial.seconds)) {
@@ -139,7 +135,6 @@ double seconds_of(const MazeTrial& trial, std::string_view stage) {
   return 0.0;
 }
 
-/// Each stage's least, and each link's.
 void take_least(MazeTrial& least, const MazeTrial& other) {
   for (double StageTimes::*stage :
        {&StageTimes::index, &StageTimes::sample, &StageTimes::neighbours, &StageTimes::connect, &StageTimes::graph,
@@ -245,7 +240,6 @@ ThreadGain gain_of(const std::vector<Pair>& pairs, unsigned cores) {
 
 using Json = nlohmann::ordered_json;
 
-/// What rows are told apart by.
 Json row_key_json(const MazeTrial& t) {
   return {{"rows", t.rows}, {"cols", t.cols}, {"threads", t.threads}, {"planner", t.planner}, {"sampler", t.sampler}};
 }
@@ -397,7 +391,6 @@ std::vector<Plot> plots_of(std::span<const ScalingRow> rows) {
   return plots;
 }
 
-/// Cycles and instructions a cell of the maze, instructions a cycle, misses a cell.
 std::vector<std::string> hardware_cells(const RunCounts& counts, double cells) {
   const auto per = [&](std::string_view name, std::optional<double> unit) -> std::string {
     const auto count = counts.hardware_count(name);
@@ -426,7 +419,6 @@ TextTable table_of(std::span<const ScalingRow> rows) {
   return table;
 }
 
-/// A line each, for they are many.
 TextTable gains_of(const ScalingResult& result) {
   TextTable table{{"planner", "size", "threads", "pairs", "gain", "arithmetic", "quiet pairs", "quiet gain"},
                   1,
@@ -440,7 +432,6 @@ TextTable gains_of(const ScalingResult& result) {
   return table;
 }
 
-/// What the fastest run of each row cost beside its time.
 TextTable counts_of(const ScalingResult& result, std::span<const ScalingRow> rows) {
   TextTable table{
       {"planner", "size", "threads", "CPU", "page faults", "switched away"}, 1, "Counts of the fastest runs"};
@@ -513,23 +504,6 @@ std::vector<ScalingRow> scaling_rows(const ScalingResult& result) {
   });
   add_speed_ups(rows);
   return rows;
-}
-
-std::optional<double> common_exponent(std::span<const std::vector<Vec2>> groups) {
-  double xx = 0.0;
-  double xy = 0.0;
-  for (const std::vector<Vec2>& group : groups) {
-    Vec2 mean;
-    for (const Vec2 p : group) mean = mean + Vec2{std::log(p.x), std::log(p.y)};
-    if (!group.empty()) mean = 1.0 / static_cast<double>(group.size()) * mean;
-    for (const Vec2 p : group) {
-      const Vec2 d = Vec2{std::log(p.x), std::log(p.y)} - mean;
-      xx += d.x * d.x;
-      xy += d.x * d.y;
-    }
-  }
-  constexpr double least = 1e-9;  // below it all x are the same but for rounding
-  return xx > least ? std::optional(xy / xx) : std::nullopt;
 }
 
 std::vector<std::pair<std::string, double>> stage_exponents(std::span<const ScalingRow> rows) {

@@ -19,7 +19,7 @@
 
 #include "apps/studies/machine.hpp"
 #include "apps/studies/maze_trial.hpp"
-#include "core/base/types.hpp"
+#include "apps/studies/statistics.hpp"
 #include "scenes/text/human_units.hpp"
 
 namespace warren::studies {
@@ -67,10 +67,6 @@ struct ScalingRow {
 
 /// Rows by planner, then size, then threads, as they first ran.
 std::vector<ScalingRow> scaling_rows(const ScalingResult& result);
-
-/// The least-squares slope of log y over log x that the groups have in common, each with a level of its own; none
-/// where no group has two different x. All coordinates > 0.
-std::optional<double> common_exponent(std::span<const std::vector<Vec2>> groups);
 
 /// Exponents of time against cells, by stage, "solve" last: of each stage's least times in these rows, one level a
 /// planner and thread count. Stages below 20 us are left out: there the clock and the start of threads are measured.

@@ -116,7 +116,6 @@ std::string text_of(const SearchVariant& v) {
   return text;
 }
 
-/// One variant at work.
 struct Entrant {
   SearchVariant variant;
   GraphSearch search;
@@ -158,7 +157,6 @@ class SearchContest {
                                         .runs = {}});
     }
   }
-  /// One run of each, compared before anything is measured.
   void check_all() {
     std::vector<SearchClaim> claims;
     for (std::size_t i = 0; i < entrants_.size(); ++i) {
@@ -254,7 +252,6 @@ class SearchContest {
 
 bool differ(double a, double b) { return std::abs(a - b) > 1e-9 * std::max(std::abs(a), std::abs(b)); }
 
-/// What a pair of claims contradicts each other in.
 std::optional<std::string> contradiction_between(const SearchClaim& a, const SearchClaim& b) {
   const auto say = [&](std::string_view what, auto of_a, auto of_b) {
     return fmt::format("{}: {} for {}, {} for {}", what, of_a, text_of(a.variant), of_b, text_of(b.variant));

@@ -38,6 +38,27 @@ double median_of(std::span<const double> values) {
   return sorted_quantile(sorted, 0.5);
 }
 
+Vec2 mean_logarithms(std::span<const Vec2> points) {
+  Vec2 mean;
+  for (const Vec2 p : points) mean = mean + Vec2{std::log(p.x), std::log(p.y)};
+  return points.empty() ? mean : 1.0 / static_cast<double>(points.size()) * mean;
+}
+
+std::optional<double> common_exponent(std::span<const std::vector<Vec2>> groups) {
+  double xx = 0.0;
+  double xy = 0.0;
+  for (const std::vector<Vec2>& group : groups) {
+    const Vec2 mean = mean_logarithms(group);
+    for (const Vec2 p : group) {
+      const Vec2 d = Vec2{std::log(p.x), std::log(p.y)} - mean;
+      xx += d.x * d.x;
+      xy += d.x * d.y;
+    }
+  }
+  constexpr double least = 1e-20;  // below it all x are the same but for rounding
+  return xx > least ? std::optional(xy / xx) : std::nullopt;
+}
+
 double student_t(std::uint64_t degrees) {
   return boost::math::quantile(boost::math::students_t(static_cast<double>(degrees)), 1.0 - tail);
 }

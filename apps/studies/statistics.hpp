@@ -8,6 +8,9 @@
 #include <optional>
 #include <span>
 #include <utility>
+#include <vector>
+
+#include "core/base/types.hpp"
 
 namespace warren::studies {
 
@@ -41,6 +44,13 @@ double sorted_quantile(std::span<const double> sorted, double share);
 
 /// The middle of the values, at least one.
 double median_of(std::span<const double> values);
+
+/// Of both coordinates; of no points 0.
+Vec2 mean_logarithms(std::span<const Vec2> points);
+
+/// The least-squares slope of log y over log x that the groups have in common, each with a level of its own; none
+/// where no group has two different x. All coordinates > 0.
+std::optional<double> common_exponent(std::span<const std::vector<Vec2>> groups);
 
 /// Where the chance of success lies: Wilson's score interval (1927), 95 %, within [0, 1]. trials >= 1.
 Interval wilson_interval(std::uint64_t successes, std::uint64_t trials);

@@ -63,7 +63,6 @@ std::string paragraphs(const std::vector<std::string>& all) {
   return text;
 }
 
-/// With a backslash before each of `special`.
 std::string escaped(std::string_view text, std::string_view special) {
   std::string out;
   for (const char c : text) {

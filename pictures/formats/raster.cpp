@@ -157,7 +157,6 @@ std::uint8_t nearest(const Color& color, const std::vector<Color>& palette) {
   return static_cast<std::uint8_t>(best);
 }
 
-/// A palette, and where in it the colours of each box are.
 struct ImagePalette {
   std::vector<Color> colors;
   std::vector<std::uint8_t> of_box;

@@ -43,7 +43,6 @@ struct Reach {
   }
 };
 
-/// Of each ray.
 struct Nearest {
   RawVector<float> depth;
   RawVector<std::uint32_t> whose;

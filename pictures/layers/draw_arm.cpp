@@ -141,7 +141,6 @@ class ArmPath {
     }
     return all;
   }
-  /// Each solid of the links where it is.
   std::vector<Shapes> bodies(const JointState& q) const {
     const std::vector<Eigen::Isometry3d> at = frames(q);
     std::vector<Shapes> all;

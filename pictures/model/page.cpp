@@ -93,7 +93,6 @@ constexpr double line_height = 1.45;
 constexpr double legend_row = 21.0;
 constexpr double legend_gap = 18.0;  // between world and legend
 
-/// What stands around the world.
 struct Margins {
   double left, top, right, bottom;
 };
@@ -126,7 +125,6 @@ class PageMaker {
   /// Places in the legend; the scale bar has the last.
   std::size_t slots() const { return entries_.empty() ? 0 : entries_.size() + (has_axes() ? 1 : 0); }
   bool has_axes() const { return options_.parts.has(Part::axes); }
-  /// Was the page's size asked for?
   bool fixed() const { return options_.size.has_value(); }
   double world_width() const { return page_.canvas.box.width(); }
   double world_height() const { return page_.canvas.box.height(); }

@@ -83,26 +83,31 @@ std::vector<Vec2> without_arcs(std::span<const Vec2> points, std::span<const dou
   return chain;
 }
 
-std::vector<std::uint8_t> component_colors(const Graph& graph, const Execution& execution) {
-  const Components parts = components(graph, execution);
-  std::vector<std::uint32_t> size(graph.vertex_count(), 0);
-  for (const VertexId label : parts.label) ++size[label];
-  execution.check();
+std::vector<std::uint8_t> component_ranks(std::span<const VertexId> labels, std::uint8_t own,
+                                          const Execution& execution) {
+  const auto for_each = [&](const auto& visit) {
+    for (VertexId v = 0; v < labels.size(); ++v) {
+      execution.poll(v);
+      visit(v);
+    }
+  };
+  std::vector<std::uint32_t> size(labels.size(), 0);
+  for_each([&](VertexId v) { ++size[labels[v]]; });
+  const auto is_before = [&](VertexId a, VertexId b) { return size[a] != size[b] ? size[a] > size[b] : a < b; };
   std::vector<VertexId> largest;
-  for (VertexId v = 0; v < graph.vertex_count(); ++v) {
-    if (size[v] > 1) largest.push_back(v);
-  }
-  execution.check();
-  constexpr std::size_t own = colors::components.size() - 1;
-  const std::size_t ranked = std::min(own, largest.size());
-  std::partial_sort(largest.begin(), largest.begin() + static_cast<std::ptrdiff_t>(ranked), largest.end(),
-                    [&](VertexId a, VertexId b) { return size[a] != size[b] ? size[a] > size[b] : a < b; });
-  std::vector<std::uint8_t> color_of_label(graph.vertex_count(), static_cast<std::uint8_t>(own));
-  for (std::size_t rank = 0; rank < ranked; ++rank) color_of_label[largest[rank]] = static_cast<std::uint8_t>(rank);
-  std::vector<std::uint8_t> color(graph.vertex_count());
-  std::transform(parts.label.begin(), parts.label.end(), color.begin(),
-                 [&](VertexId label) { return color_of_label[label]; });
-  return color;
+  for_each([&](VertexId v) {
+    if (size[v] < 2 || (largest.size() == own && is_before(largest.back(), v))) return;
+    largest.insert(std::ranges::upper_bound(largest, v, is_before), v);
+    if (largest.size() > own) largest.pop_back();
+  });
+  std::vector<std::uint8_t> ranks(labels.size(), own);
+  for (std::size_t rank = 0; rank < largest.size(); ++rank) ranks[largest[rank]] = static_cast<std::uint8_t>(rank);
+  for_each([&](VertexId v) { ranks[v] = ranks[labels[v]]; });  // a label comes before the others of its component
+  return ranks;
+}
+
+std::vector<std::uint8_t> component_colors(const Graph& graph, const Execution& execution) {
+  return component_ranks(components(graph, execution).label, colors::components.size() - 1, execution);
 }
 
 std::vector<Vec2> mark_outline(MarkShape shape, double radius) {

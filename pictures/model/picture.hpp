@@ -185,8 +185,12 @@ struct Canvas {
 };
 Canvas canvas_of(const Picture& picture, const Execution& execution);
 
-/// For each vertex the index of its colour in colors::components: the largest components have colours of their own.
-/// Throws Stopped.
+/// For each vertex the rank of its component: the `own` largest ones of two vertices or more are told apart, the
+/// largest first, all others have rank `own`. labels: the smallest vertex of each one's component; own >= 1. Throws
+/// Stopped.
+std::vector<std::uint8_t> component_ranks(std::span<const VertexId> labels, std::uint8_t own,
+                                          const Execution& execution);
+/// The same as indices of colors::components.
 std::vector<std::uint8_t> component_colors(const Graph& graph, const Execution& execution);
 
 // The part of a map that a picture shows: a map server's image often reaches far beyond what its robot has seen.

@@ -52,7 +52,6 @@ std::string svg_of(const PlotShape& shape) {
   return text + "/>\n";
 }
 
-/// The parts of a line that are drawn.
 std::vector<std::vector<Vec2>> dashes_of(const std::vector<Vec2>& line, Vec2 dash) {
   std::vector<std::vector<Vec2>> dashes{{line.front()}};
   bool is_drawn = true;
@@ -356,7 +355,6 @@ class BoxDrawing {
 
 constexpr Box frame{{150.0, 48.0}, {724.0, 350.0}};  // of the cells, y down
 
-/// Red, green, blue, 0 to 255.
 using HeatColor = std::array<double, 3>;
 constexpr std::array<HeatColor, 5> viridis{{{68, 1, 84}, {59, 82, 139}, {33, 145, 140}, {94, 201, 98}, {253, 231, 37}}};
 

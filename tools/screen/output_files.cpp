@@ -135,7 +135,6 @@ std::vector<NamedFile> outputs_of(const Arguments& arguments) {
   return files;
 }
 
-/// At most one of these files is "-".
 void check_standard_stream(const std::vector<NamedFile>& files, std::string_view refusal) {
   const NamedFile* taker = nullptr;
   for (const NamedFile& file : files) {

@@ -34,7 +34,6 @@ constexpr OptionSpec run_specs[] = {
     {"--trace", "FILE", "write what ran when on which thread, as a trace for Chrome or Perfetto"},
 };
 
-/// Of the whole command.
 std::optional<double> budget_of(const Arguments& arguments, RunScope scope) {
   return scope == RunScope::whole_command ? given_value(arguments, "--budget", duration_value) : std::nullopt;
 }

@@ -17,7 +17,7 @@
 #include "solve/kinds/solve_steps.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
-#include "tools/words/output_words.hpp"
+#include "tools/words/question_words.hpp"
 #include "worlds/rasters/lattice_polygons.hpp"
 
 namespace warren::tools {
@@ -89,8 +89,7 @@ void AnswerCommand::answer(const Run& run) {
   tell_process(answer_, run.execution());
 }
 
-/// What is on disk says the same as the exit code: a stop while something is written makes it a stopped answer, one
-/// before, after the answer was found, does not.
+/// A stop before, after the answer was found, does not make it a stopped answer.
 void AnswerCommand::write_outputs(Run& run) {
   if (explains()) {
     explain_in_time(answer_, [&] {

@@ -35,7 +35,6 @@ namespace {
 
 constexpr double least_tolerance = 1e-3;
 
-/// One method on one scenario.
 struct ScenarioTrial {
   double length = std::numeric_limits<double>::infinity();  ///< infinity: no path
   double seconds = 0.0;

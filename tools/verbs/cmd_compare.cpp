@@ -27,8 +27,6 @@
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/screen/world_files.hpp"
 #include "tools/words/option_values.hpp"
-#include "tools/words/output_words.hpp"
-#include "tools/words/planner_words.hpp"
 #include "tools/words/question_words.hpp"
 #include "worlds/rasters/lattice_polygons.hpp"
 
@@ -67,7 +65,6 @@ bool check_outputs_of_compare(const Arguments& arguments) {
   return taken;
 }
 
-/// Reads what the options name, and compares. Why the world has no graph to search, if it has none.
 std::optional<Outcome> compare_within(const Arguments& arguments, CompareOptions& options, const Run& run,
                                       studies::Comparison& comparison) {
   std::optional<Scene> scene;
@@ -152,8 +149,6 @@ int compare(const Arguments& arguments) {
                [&] { return studies::comparison_summary(comparison, run.palette()); });
   return exit_code(comparison, !no_graph);
 }
-
-// Which options of `solve` take lists in `warren compare`, and the contenders' deal that words make with them.
 
 /// The options of `solve` that take a list here, apart by commas, in the order in which they are dealt.
 constexpr Option listed[] = {Option::search,    Option::queue,       Option::heuristic, Option::sampler,
@@ -256,7 +251,6 @@ constexpr OptionSpec own_specs[] = {
      "with the body along it, all these paths in one picture, and the layers of grid"},
 };
 
-/// The options of `solve` that compare takes as they are.
 std::vector<OptionSpec> passed_specs() {
   return joined_options({options_but(solve_option_specs(), {"--planner", "--seed", "--samples"}),
                          question_option_specs(), price_option_specs()});
@@ -280,8 +274,6 @@ studies::PlannerContestOptions contest_options(const Arguments& arguments) {
   const auto planners = given_values(arguments, "--planners", "--planner", choice_value<PlannerKind>);
   studies::PlannerContestOptions options;
   options.contenders = studies::deal_planners(deal_words(arguments, planners));
-  options.pictures = arguments.value("--pictures").value_or("");
-  options.look = picture_words(arguments, arguments.has("--pictures"), "--pictures FOLDER");
   options.first_seed = first_seed(arguments);
   options.repeat_all = arguments.has("--trials");
   options.runs = count_or(arguments, options.repeat_all ? "--trials" : "--seeds", usual_seeds);
@@ -355,12 +347,6 @@ std::string about_planners(const UsageError& error) {
   return text;
 }
 
-/// Bodies that turn plan among a map's borders, and pictures show them.
-bool needs_map_walls(const Scene& scene, const studies::PlannerContestOptions& contest) {
-  const RobotKind body = robot_of(scene, contest.contenders.front().question).kind;
-  return !contest.pictures.empty() || (body != RobotKind::point && body != RobotKind::disc);
-}
-
 void add_pictures(studies::Comparison& comparison, const std::string& folder, std::vector<std::string> notes) {
   comparison.notes.push_back("pictures: " + folder);
   std::move(notes.begin(), notes.end(), std::back_inserter(comparison.notes));
@@ -385,20 +371,22 @@ studies::PlannerContestOptions priced_contest(const Scene& scene, studies::Plann
   return contest;
 }
 
-void compare_planners(const Scene& scene, const studies::PlannerContestOptions& asked, const Execution& execution,
+void compare_planners(const Scene& scene, const CompareOptions& options, const Execution& execution,
                       studies::Comparison& comparison) {
-  const studies::PlannerContestOptions contest = priced_contest(scene, asked, comparison);
+  const studies::PlannerContestOptions contest = priced_contest(scene, *options.planners, comparison);
   std::optional<Scene> copy;
-  const bool has_borders = scene.map && needs_map_walls(scene, contest);
-  const Scene& world = has_borders ? with_map_walls(scene, copy, execution) : scene;
+  const RobotKind body = robot_of(scene, contest.contenders.front().question).kind;
+  // Bodies that turn plan among a map's borders, and pictures show them.
+  const bool shows_borders = !options.pictures.empty() || (body != RobotKind::point && body != RobotKind::disc);
+  const Scene& world = scene.map && shows_borders ? with_map_walls(scene, copy, execution) : scene;
   try {
     studies::run_planner_contest(world, contest, execution, comparison);
   } catch (const UsageError& error) {
     throw UsageError(about_planners(error));
   }
-  if (contest.pictures.empty()) return;
-  add_pictures(comparison, contest.pictures,
-               studies::draw_contest(world, contest, comparison, contest.pictures, execution));
+  if (options.pictures.empty()) return;
+  add_pictures(comparison, options.pictures,
+               studies::draw_contest(world, contest, comparison, options.pictures, options.look, execution));
 }
 
 /// The planner that was asked for, else the one that `solve` would take, with those of the options that it takes.
@@ -436,8 +424,7 @@ std::optional<Outcome> compare_searches(const CompareOptions& options, const Sce
 }
 
 void check_heading(const CompareOptions& options, const Scene& scene) {
-  const PictureOptions& look = options.planners ? options.planners->look : options.look;
-  if (!look.heading) return;
+  if (!options.look.heading) return;
   check_has_headings(
       robot_of(scene, options.planners ? options.planners->contenders.front().question : options.graph_deal.question));
 }
@@ -476,10 +463,10 @@ CompareOptions compare_options(const Arguments& arguments) {
   if (arguments.has("--planners")) {
     options.planners = contest_options(arguments);
     options.planners->budget_s = options.budget_s;
-    return options;
   }
   options.pictures = arguments.value("--pictures").value_or("");
   options.look = picture_words(arguments, arguments.has("--pictures"), "--pictures FOLDER");
+  if (options.planners) return options;
   arguments.refuse({"--parallel"}, "runs --planners beside each other; searches are timed one by one");
   options.searches.variants = variants_of(arguments);
   options.searches.trials = given_value(arguments, "--trials", auto_or_count_value, std::uint64_t{1}, most_runs);
@@ -502,7 +489,7 @@ std::optional<Outcome> run_comparison(const CompareOptions& options, const Scene
   std::optional<Outcome> no_graph;
   if (scene != nullptr) check_heading(options, *scene);
   try {
-    if (scene != nullptr && options.planners) compare_planners(*scene, *options.planners, execution, comparison);
+    if (scene != nullptr && options.planners) compare_planners(*scene, options, execution, comparison);
     if (scene != nullptr && !options.planners) {
       no_graph = compare_searches(options, *scene, execution, comparison, note);
     }

@@ -15,6 +15,7 @@
 #include "apps/studies/search_contest.hpp"
 #include "core/base/solution.hpp"
 #include "core/run/execution.hpp"
+#include "pictures/model/picture_options.hpp"
 #include "scenes/scene/scene.hpp"
 #include "tools/words/command.hpp"
 
@@ -27,7 +28,7 @@ struct CompareOptions {
   std::optional<studies::SizeSweepOptions> sweep;
   std::optional<PlannerKind> graph;  ///< the planner whose graph is searched; none: the world's usual one
   studies::PlannerDeal graph_deal;   ///< options of that planner; its planners are all that may make the graph
-  std::string pictures = {};         ///< the folder that takes the picture of the searches; empty: none is drawn
+  std::string pictures = {};         ///< the folder that takes them; empty: none are drawn
   PictureOptions look = {};
   double budget_s = std::numeric_limits<double>::infinity();  ///< of each run
 };

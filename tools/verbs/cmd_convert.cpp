@@ -24,7 +24,6 @@
 #include "tools/screen/world_files.hpp"
 #include "tools/words/command.hpp"
 #include "tools/words/option_values.hpp"
-#include "tools/words/output_words.hpp"
 #include "tools/words/question_words.hpp"
 #include "worlds/rasters/lattice_polygons.hpp"
 
@@ -76,7 +75,6 @@ int simplify_graph(const Arguments& arguments, const std::string& file) {
   return exit_code::success;
 }
 
-/// What there is to note, once all is done.
 std::string write_any(Scene& scene, const std::string& file, const Arguments& arguments, const PictureOptions& options,
                       const Execution& execution) {
   // A picture of walls in pixels can't be read back, so a map's is an image of its cells.
@@ -138,7 +136,6 @@ constexpr OptionSpec export_specs[] = {
     roadmap_world_option,
 };
 
-/// A route graph with fewer nodes.
 int export_simplified(const Arguments& arguments, const std::string& file, const std::string& frame) {
   const double within = *given_value(arguments, "--simplify", number_value, 0.0, largest_coordinate);
   if (!file.ends_with(".geojson")) throw UsageError("--simplify: a route graph is written as -o FILE.geojson");

@@ -29,7 +29,6 @@ std::string_view bytes_of(std::string_view name) {
   return std::find_if(files.begin(), files.end(), [&](const EmbeddedFile& file) { return file.name == name; })->bytes;
 }
 
-/// What stands between backquotes.
 std::vector<std::string_view> quoted(std::string_view text) {
   const std::vector<std::string_view> pieces = split(text, "`");
   std::vector<std::string_view> inside;

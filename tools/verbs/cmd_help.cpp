@@ -107,7 +107,6 @@ content decides), \fB\-\fR for standard input, or
 \fBwarren example\fR writes worlds to try things on.
 )";
 
-/// What a paragraph tells, and its text.
 constexpr std::pair<std::string_view, std::string_view> exit_codes[] = {
     {"0", "success; for solve, a path that was verified."},
     {"1", "no path (the status says which kind), or verify refutes the answer."},

@@ -31,7 +31,6 @@
 #include "tools/screen/world_files.hpp"
 #include "tools/words/command.hpp"
 #include "tools/words/option_values.hpp"
-#include "tools/words/planner_words.hpp"
 #include "tools/words/question_words.hpp"
 
 namespace warren::tools {
@@ -165,7 +164,6 @@ std::string profile_json(const StageProfile& profile) {
   return json.dump(1) + "\n";
 }
 
-/// Two bars a stage: one thread, and all.
 PlotSheet profile_bars(const StageProfile& profile) {
   constexpr Box frame{{150.0, 48.0}, {plot_size.x - 110.0, 366.0}};
   double most_s = 1e-9;

@@ -18,8 +18,6 @@
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/world_files.hpp"
 #include "tools/verbs/answer_command.hpp"
-#include "tools/words/output_words.hpp"
-#include "tools/words/planner_words.hpp"
 #include "tools/words/question_words.hpp"
 
 namespace warren::tools {
@@ -83,7 +81,6 @@ Asked ask_table(const RoadmapQuery& query, const Arguments& arguments, const Bat
           account.wrong};
 }
 
-/// Answers the many questions of --batch or --matrix, in lines.
 int ask_many(const Arguments& arguments) {
   const bool is_table = arguments.has("--matrix");
   const BatchOptions options{solve_words(arguments), arguments.has("--lengths-only"), arguments.has("--csv")};

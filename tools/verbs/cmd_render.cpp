@@ -15,7 +15,6 @@
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/screen/world_files.hpp"
 #include "tools/words/command.hpp"
-#include "tools/words/output_words.hpp"
 #include "tools/words/question_words.hpp"
 #include "worlds/rasters/lattice_polygons.hpp"
 

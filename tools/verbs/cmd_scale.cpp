@@ -16,7 +16,6 @@
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/words/command.hpp"
 #include "tools/words/option_values.hpp"
-#include "tools/words/planner_words.hpp"
 #include "tools/words/question_words.hpp"
 
 namespace warren::tools {
@@ -35,7 +34,6 @@ constexpr OptionSpec study_specs[] = {
     {"--html", "FILE", "write a page with plots that needs no network; - is standard output"},
 };
 
-/// Rows and columns.
 using Size = std::pair<std::uint32_t, std::uint32_t>;
 
 Size size_value(std::string_view option, std::string_view word) {
@@ -87,14 +85,10 @@ studies::ScalingOptions scaling_options(const Arguments& arguments) {
 
 int exit_code(const studies::ScalingResult& result) {
   if (result.signal) return exit_code_of(*result.signal);
-  bool stopped = !result.ungenerated.empty();
-  bool unsolved = false;
-  for (const studies::ScalingRun& run : result.runs) {
-    stopped = stopped || run.trial.outcome == Outcome::stopped;
-    unsolved = unsolved || !run.trial.verified;
-  }
-  if (stopped) return exit_code::budget;
-  return unsolved ? exit_code::no_path : exit_code::success;
+  const auto is_stopped = [](const studies::ScalingRun& run) { return run.trial.outcome == Outcome::stopped; };
+  if (!result.ungenerated.empty() || std::ranges::any_of(result.runs, is_stopped)) return exit_code::budget;
+  const auto is_solved = [](const studies::ScalingRun& run) { return run.trial.verified; };
+  return std::ranges::all_of(result.runs, is_solved) ? exit_code::success : exit_code::no_path;
 }
 
 int scale(const Arguments& arguments) {

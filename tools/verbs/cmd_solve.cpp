@@ -16,8 +16,6 @@
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/world_files.hpp"
 #include "tools/verbs/answer_command.hpp"
-#include "tools/words/output_words.hpp"
-#include "tools/words/planner_words.hpp"
 #include "tools/words/question_words.hpp"
 
 namespace warren::tools {
@@ -99,7 +97,6 @@ class SolveCommand : public AnswerCommand {
     if (answer.outcome != Outcome::stopped) complete(execution, keep);
     explain_answer(scene_, asked, answer, keep, execution);
   }
-  /// Once.
   void complete(const Execution& execution, ByProducts& keep) {
     if (!completed_) make_by_products(scene_, question_, options_, execution, keep);
     completed_ = true;

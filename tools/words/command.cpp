@@ -142,8 +142,6 @@ Arguments Arguments::without(std::span<const std::string_view> options) const {
   return others;
 }
 
-// The verbs of the program; main.cpp dispatches to them.
-
 const std::vector<Command>& command_table() {
   static const std::vector<Command> table{
       solve_command(),    verify_command(),     render_command(),  compare_command(), build_command(),

@@ -78,7 +78,6 @@ std::string options_about(std::string_view asked, std::span<const Command> comma
   return options_with_verbs(commands, width, has_name) + options_with_verbs(commands, width, takes_it);
 }
 
-/// "g++ 12.2.0, Release".
 std::string build_compiler() {
 #ifdef __clang__
   const std::string compiler = fmt::format("clang++ {}.{}.{}", __clang_major__, __clang_minor__, __clang_patchlevel__);
@@ -111,7 +110,6 @@ std::string build_instruction_sets() {
 
 /// What stands in none is the verb's own.
 constexpr std::string_view own = "Options";
-/// Titles, and the names below them.
 constexpr std::pair<std::string_view, std::string_view> option_groups[] = {
     {"Question",
      "--robot --start --goal --goal-pose --via --clearance --contact --map-rules --request --goal-tolerance "
@@ -351,10 +349,8 @@ std::vector<HelpExample> help_examples(std::string_view verb) {
 }
 
 std::string_view most_used_options(std::string_view verb) {
-  for (const auto& [name, options] : most_used) {
-    if (name == verb) return options;
-  }
-  return {};
+  const auto found = std::ranges::find(most_used, verb, [](const auto& each) { return each.first; });
+  return found == std::end(most_used) ? std::string_view{} : found->second;
 }
 
 }  // namespace warren::tools

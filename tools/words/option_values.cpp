@@ -20,7 +20,6 @@ namespace {
   throw UsageError(fmt::format("{}: expected {} (found: '{}')", option, expected, found));
 }
 
-/// Its name and its factor.
 using Unit = std::pair<std::string_view, double>;
 
 /// NUMBER UNIT, the number finite and > 0.
@@ -43,7 +42,6 @@ std::uint64_t count_in(std::string_view option, std::string_view text, std::uint
   refuse(option, fmt::format("{} from {} to {}", expected, low, high), text);
 }
 
-/// An angle may be said in degrees.
 std::optional<double> number_or_degrees(std::string_view text) {
   if (!text.ends_with("deg")) return number_in(text);
   const auto degrees = number_in(text.substr(0, text.size() - 3));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/words/output_words.hpp"
+#include "tools/words/question_words.hpp"
 
 #include <fmt/format.h>
 

@@ -51,7 +51,6 @@ NearRow row_near(std::string_view word, std::size_t most) {
   return near;
 }
 
-/// As the screen has it.
 std::string plain(std::string_view text) {
   std::string words{text};
   std::erase_if(words, [](char c) { return c == '`' || c == '\\'; });

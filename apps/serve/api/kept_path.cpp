@@ -60,7 +60,6 @@ constexpr std::size_t blocks_a_look = 64;
 /// Points in a chain that doubles, and the same again where they are joined.
 constexpr std::size_t bytes_a_block = 4 * KeptCurve::block_points * sizeof(Vec2);
 
-/// What is seen of some legs in a row.
 struct SeenLegs {
   std::vector<std::vector<Vec2>> chains;
   bool begins_seen = false;  // the first leg is

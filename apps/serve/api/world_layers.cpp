@@ -28,7 +28,6 @@ struct ColorMeaning {
 };
 using Legend = std::vector<ColorMeaning>;
 
-/// A list of "color" and "words".
 std::string json_of_legend(const Legend& legend) {
   return json_list_of(legend, ",", [](const ColorMeaning& one) {
     const std::string opacity = one.is_step ? fmt::format("{:02x}", step_opacity) : "";
@@ -50,7 +49,6 @@ std::string unit_behind(const ServedWorld& world) {
   return unit.empty() ? "" : " " + std::string(unit);
 }
 
-/// Of a maze's lattice.
 Legend passages_legend(std::uint64_t passages, std::uint64_t cells) {
   return {{component_inks[0], fmt::format("{} between {}, drawn where a cell has 8 pixels or more",
                                           counted(passages, "passage", "passages"), counted(cells, "cell", "cells"))}};
@@ -135,7 +133,6 @@ unsigned zoom_of(double pixel, const TileGrid& grid) {
   return zoom;
 }
 
-/// Is it asked by the roadmap of a maze's lattice?
 bool has_lattice(const ServedWorld& world) {
   return world.query() != nullptr && world.query()->roadmap().lattice != nullptr;
 }

@@ -83,7 +83,6 @@ std::string RunningQuestions::told(const std::string& name, std::uint64_t from) 
 
 namespace {
 
-/// Of a profile.
 std::size_t sample_count(const HttpRequest& request) {
   constexpr double most = 2000.0;
   const double count = numbers_parameter(request, "samples", 1).value_or(std::vector{200.0})[0];
@@ -105,7 +104,6 @@ std::string tiles_json(const TileGrid& grid, const std::string& hash) {
                      "corner", numbers_json(std::array{grid.corner.x, grid.corner.y}), "span", grid.span);
 }
 
-/// Those that a question may name.
 std::string planners_json(const ServedWorld& world, const Question& body, bool asks_roadmap) {
   std::string text = "[";
   if (!asks_roadmap) {
@@ -249,7 +247,6 @@ bool is_same_secret(std::string_view a, std::string_view b) {
 /// the body along them, the body's sweep. Any number of threads may ask.
 class PathService {
  public:
-  /// Refers to the world.
   PathService(const ServedWorld& world, const ServiceLimits& limits)
       : world_(world), most_view_points_(limits.most_view_points), paths_(limits.path_bytes) {}
 
@@ -277,7 +274,6 @@ class PathService {
     if (route.place == Place::sweep) return sweep(*kept, request, execution);
     return told(*kept, request, execution);
   }
-  /// Of all that is kept.
   std::size_t bytes() const { return paths_.bytes(); }
 
  private:

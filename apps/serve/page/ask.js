@@ -88,7 +88,7 @@ function tellWhy(lines) {
 }
 /// The question once more, for what stood in the way and what would likely help.
 async function askWhy(asked) {
-  const of = answer.json, unit = world.unit ? " " + world.unit : "";
+  const of = answer.json;
   let json;
   try {
     json = await (await fetch("api/query", {method: "POST", headers: {"Content-Type": "application/json"}, body: JSON.stringify({...JSON.parse(asked), explain: true})})).json();
@@ -97,7 +97,7 @@ async function askWhy(asked) {
   }
   if (of !== answer.json || !json.explained) return;
   const gap = json.components, lines = [];
-  if (gap) lines.push("The gap between what start and goal reach is " + shown(gap.nearest_gap) + unit + " wide.");
+  if (gap) lines.push("The gap between what start and goal reach is " + inUnit(gap.nearest_gap) + " wide.");
   for (const hint of json.explained.hints) lines.push(hint.options.length ? "On the command line " + hint.options.join(" ") + " might help: " + hint.why + "." : "What might help: " + hint.why + ".");
   tellWhy(lines);
 }
@@ -164,9 +164,8 @@ const written = number => String(Math.abs(number) >= 1e6 && Math.abs(number) < 1
 const grouped = text => String(text).replace(/^(-?)(\d+)/, (_, sign, whole) => sign + whole.replace(/\B(?=(\d{3})+$)/g, "\u00a0"));
 const shown = number => grouped(written(number));
 function inWords(json) {
-  const unit = world.unit ? " " + world.unit : "";
-  const reached = json.goal_reached && json.goal_reached.distance > 0 ? ", " + shown(json.goal_reached.distance) + unit + " from the goal" : "";
-  if (json.status === "solved") return "Solved: " + shown(json.length) + unit + (json.optimal ? ", the shortest there is" : "") + reached;
+  const reached = json.goal_reached && json.goal_reached.distance > 0 ? ", " + inUnit(json.goal_reached.distance) + " from the goal" : "";
+  if (json.status === "solved") return "Solved: " + inUnit(json.length) + (json.optimal ? ", the shortest there is" : "") + reached;
   if (json.status === "start_blocked") return "The body does not fit at the start" + reason(json);
   if (json.status === "goal_blocked") return "The body does not fit at the goal" + reason(json);
   if (json.status === "not_connected") return "No path was found.";

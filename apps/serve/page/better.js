@@ -37,8 +37,8 @@ async function watchWays(name) {
   }
 }
 function wayInWords(way) {
-  const unit = world.unit ? " " + world.unit : "", gap = way.lower_bound ? 100 * Math.max(0, way.cost / way.lower_bound - 1) : null;
-  return "Length " + shown(way.length) + unit + (gap === null ? "" : ", at most " + Number(gap.toPrecision(2)) + " % more than the best");
+  const gap = way.lower_bound ? 100 * Math.max(0, way.cost / way.lower_bound - 1) : null;
+  return "Length " + inUnit(way.length) + (gap === null ? "" : ", at most " + Number(gap.toPrecision(2)) + " % more than the best");
 }
 /// The first `count` of them: the last one plainly, some before it faintly.
 function drawWays(count) {
@@ -49,10 +49,7 @@ function drawWays(count) {
     return L.polyline(points, {color: pathColor(), weight: newest ? 3 : 2, opacity: newest ? 0.9 : 0.1 + 0.4 * i / shownWays.length, interactive: false});
   })).addTo(map);
 }
-function hideLines() {
-  if (better.lines) better.lines.remove();
-  better.lines = null;
-}
+const hideLines = () => putLayer(better, "lines");
 function hideWays() {
   hideLines();
   byId("better").hidden = true;

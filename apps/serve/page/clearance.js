@@ -23,8 +23,7 @@ async function showClearance() {
 function forgetClearance() {
   profile.places = [];
   profile.id = null;
-  if (profile.dot) profile.dot.remove();
-  profile.dot = null;
+  putLayer(profile, "dot");
   showChart(false);
   byId("clearance-text").textContent = "";
 }
@@ -34,18 +33,17 @@ const chartX = place => chart.width * place.along / (profile.places[profile.plac
 function drawChart() {
   const most = Math.max(...profile.places.map(place => place.clearance)) || 1;
   const line = profile.places.map(place => chartX(place).toFixed(1) + "," + (chart.height * (1 - place.clearance / most)).toFixed(1));
-  const unit = world.unit ? " " + world.unit : "";
-  byId("clearance-most").textContent = "clearance, 0 to " + shown(most) + unit;
-  byId("clearance-end").textContent = "after " + shown(profile.places[profile.places.length - 1].along) + unit;
+  byId("clearance-most").textContent = "clearance, 0 to " + inUnit(most);
+  byId("clearance-end").textContent = "after " + inUnit(profile.places[profile.places.length - 1].along);
   byId("clearance-line").setAttribute("points", ["0," + chart.height, ...line, chart.width + "," + chart.height].join(" "));
 }
 function showClearanceAt() {
   const place = profile.places[Number(byId("clearance-at").value)];
   if (!place) return;
-  const unit = world.unit ? " " + world.unit : "", clearances = profile.places.map(p => p.clearance);
+  const clearances = profile.places.map(p => p.clearance);
   const mean = clearances.reduce((sum, c) => sum + c, 0) / clearances.length;
-  const here = shown(place.clearance) + unit + " after " + shown(place.along) + unit;
-  byId("clearance-text").textContent = here + "; least " + shown(Math.min(...clearances)) + unit + ", mean " + shown(mean) + unit;
+  const here = inUnit(place.clearance) + " after " + inUnit(place.along);
+  byId("clearance-text").textContent = here + "; least " + inUnit(Math.min(...clearances)) + ", mean " + inUnit(mean);
   byId("clearance-at").setAttribute("aria-valuetext", here);
   for (const end of ["x1", "x2"]) byId("clearance-here").setAttribute(end, chartX(place));
   const at = latLng({x: place.at[0], y: place.at[1]});

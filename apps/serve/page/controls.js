@@ -41,7 +41,7 @@ function showAnswer(json, times) {
   const move = byId("move");
   move.hidden = !blocked;
   if (blocked) {
-    move.textContent = "Move the " + blocked.end + " to where it fits, " + shown(blocked.distance) + (world.unit ? " " + world.unit : "") + " away";
+    move.textContent = "Move the " + blocked.end + " to where it fits, " + inUnit(blocked.distance) + " away";
     move.onclick = () => { setEnd(blocked.end, {x: blocked.free_place[0], y: blocked.free_place[1]}); };
   }
   for (const id of ["save-geojson", "save-csv"]) byId(id).disabled = !(json && json.verified);

@@ -121,9 +121,8 @@ function drawsClick(event) {
   return true;
 }
 function drawsKey(event) {
-  const withControl = event.ctrlKey || event.metaKey, key = event.key.toLowerCase();
-  if (withControl && key === "z" && !editor.on) event.shiftKey ? stepDrawing(drawing.redo, drawing.undo) : stepDrawing(drawing.undo, drawing.redo);
-  else if (withControl && key === "y" && !editor.on) stepDrawing(drawing.redo, drawing.undo);
+  const step = editor.on ? null : undoStep(event);
+  if (step) step === "redo" ? stepDrawing(drawing.redo, drawing.undo) : stepDrawing(drawing.undo, drawing.redo);
   else if (event.key === "Enter" && drawing.corners.length > 0) finishDrawing();
   else if (event.key === "Escape" && drawing.tool) drawing.corners.length > 0 ? (drawing.corners = [], sketch.redraw()) : setTool(drawing.tool);
   else return false;
@@ -145,9 +144,8 @@ function readShape() {
 const sketch = {
   line: null,
   redraw() {
-    if (this.line) this.line.remove();
     const points = drawing.corners.map(p => L.latLng(p[1], p[0]));
-    this.line = points.length ? L.layerGroup([L.polyline(points, {color: "#d97706", weight: 3, dashArray: "6 4", interactive: false}), ...points.map(p => L.circleMarker(p, {radius: 4, color: "#d97706", interactive: false}))]).addTo(map) : null;
+    putLayer(this, "line", points.length ? L.layerGroup([L.polyline(points, {color: "#d97706", weight: 3, dashArray: "6 4", interactive: false}), ...points.map(p => L.circleMarker(p, {radius: 4, color: "#d97706", interactive: false}))]).addTo(map) : null);
   }
 };
 

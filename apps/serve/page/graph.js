@@ -197,16 +197,14 @@ const GraphLayer = L.Layer.extend({
     for (const node of graph.nodes.values()) {
       const p = pixelOf(node), isChosen = graph.selected && graph.selected.name === "nodes" && graph.selected.id === node.id;
       if (p.x < -20 || p.y < -20 || p.x > size.x + 20 || p.y > size.y + 20) continue;
-      if (isChosen) {
-        pen.fillStyle = color("--chosen");
+      const disc = (name, wide) => {
+        pen.fillStyle = color(name);
         pen.beginPath();
-        pen.arc(p.x, p.y, radius + 6, 0, 2 * Math.PI);
+        pen.arc(p.x, p.y, wide, 0, 2 * Math.PI);
         pen.fill();
-      }
-      pen.fillStyle = color("--node");
-      pen.beginPath();
-      pen.arc(p.x, p.y, radius, 0, 2 * Math.PI);
-      pen.fill();
+      };
+      if (isChosen) disc("--chosen", radius + 6);
+      disc("--node", radius);
       pen.stroke();
     }
   }

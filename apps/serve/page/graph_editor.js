@@ -27,14 +27,14 @@ function choose(name, id) {
   if (name !== null) say(wordsOfChosen());
 }
 function wordsOfChosen() {
-  const {name, id} = graph.selected, unit = world.unit ? " " + world.unit : "";
+  const {name, id} = graph.selected;
   if (name === "nodes") {
     const node = graph.nodes.get(id), blocked = edgesAt(id).filter(e => (verdictOf(e) || {free: true}).free === false);
     return "Node " + id + " at " + node.at.map(written).join(", ") + ", " + edgesAt(id).length + " edges" + (blocked.length ? "; not free: " + verdictOf(blocked[0]).why : "");
   }
   const edge = graph.edges.get(id), verdict = verdictOf(edge);
-  const state = !verdict ? "" : verdict.free ? ", free" + (verdict.clearance === null ? "" : ", clearance " + shown(verdict.clearance) + unit) : "; not free: " + verdict.why;
-  return "Edge " + edge.from + " to " + edge.to + (between(edge.from, edge.to).length > 1 ? " and back" : "") + ", " + shown(lengthOf(edge)) + unit + state;
+  const state = !verdict ? "" : verdict.free ? ", free" + (verdict.clearance === null ? "" : ", clearance " + inUnit(verdict.clearance)) : "; not free: " + verdict.why;
+  return "Edge " + edge.from + " to " + edge.to + (between(edge.from, edge.to).length > 1 ? " and back" : "") + ", " + inUnit(lengthOf(edge)) + state;
 }
 
 /// The fields and buttons beside the map.
@@ -106,7 +106,7 @@ function endDrag() {
 }
 
 /// The node after the chosen one in order of ids, or before it.
-function step(way) {
+function stepNodes(way) {
   const ids = [...graph.nodes.keys()].sort((a, b) => a - b);
   if (ids.length === 0) return void say("There are no nodes.");
   const now = graph.selected && graph.selected.name === "nodes" ? ids.indexOf(graph.selected.id) : way > 0 ? -1 : 0;
@@ -132,16 +132,15 @@ function nudge(step) {
   say(wordsOfChosen());
 }
 function takesKey(event) {
-  const isUndo = (event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "z", isRedo = (event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "y";
-  if (isUndo || isRedo) {
-    isRedo || event.shiftKey ? redoGraph() : undoGraph();
+  const step = undoStep(event);
+  if (step) {
+    step === "redo" ? redoGraph() : undoGraph();
     return true;
   }
   if (event.ctrlKey || event.metaKey || event.altKey) return false;
-  const arrow = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]}[event.key];
-  const chosen = graph.selected, far = event.shiftKey ? 40 : 8;
-  if (arrow && chosen && chosen.name === "nodes") nudge(L.point(far * arrow[0], far * arrow[1]));
-  else if (event.key === "n" || event.key === "p") step(event.key === "n" ? 1 : -1);
+  const arrow = arrowStep(event), chosen = graph.selected;
+  if (arrow && chosen && chosen.name === "nodes") nudge(arrow);
+  else if (event.key === "n" || event.key === "p") stepNodes(event.key === "n" ? 1 : -1);
   else if (event.key === "a") addNode(placeOf(map.getCenter()), chosen && chosen.name === "nodes" ? chosen.id : undefined);
   else if (event.key === "e") join();
   else if (event.key === "Delete" || event.key === "Backspace") removeChosen();

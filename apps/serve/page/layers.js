@@ -43,8 +43,7 @@ async function showLegend(layer) {
 }
 function showLayer(layer) {
   const {account, box} = layer, t = world.tiles;
-  if (layer.tiles) layer.tiles.remove();
-  layer.tiles = null;
+  putLayer(layer, "tiles");
   layer.shownFrom = answer.start;
   box.disabled = !account.there;
   if (!account.there) box.checked = false;

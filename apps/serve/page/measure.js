@@ -5,7 +5,7 @@
 const measuring = {on: false, points: [], layer: null};
 
 const lengthAlong = points => points.slice(1).reduce((sum, p, i) => sum + Math.hypot(p.x - points[i].x, p.y - points[i].y), 0);
-const measuredText = () => shown(lengthAlong(measuring.points)) + (world.unit ? " " + world.unit : "");
+const measuredText = () => inUnit(lengthAlong(measuring.points));
 
 function setMeasuring(on) {
   if (on && drawing.tool) setTool(drawing.tool);
@@ -19,15 +19,13 @@ function setMeasuring(on) {
   else if (measuring.points.length > 1) say("Measured: " + measuredText() + ".");
 }
 function showMeasured() {
-  if (measuring.layer) measuring.layer.remove();
-  measuring.layer = null;
+  putLayer(measuring, "layer");
   const at = measuring.points.map(latLng);
   if (at.length === 0) return;
-  const told = document.createElement("span");
-  told.textContent = measuredText();
+  const words = elementOf("span", {}, measuredText());
   const dots = at.map(p => L.circleMarker(p, {radius: 4, color: "#0891b2", interactive: false}));
   measuring.layer = L.layerGroup([L.polyline(at, {color: "#0891b2", weight: 3, interactive: false}), ...dots]).addTo(map);
-  if (at.length > 1) dots[at.length - 1].bindTooltip(told, {permanent: true, direction: "right", offset: [8, 0], className: "measured"}).openTooltip();
+  if (at.length > 1) dots[at.length - 1].bindTooltip(words, {permanent: true, direction: "right", offset: [8, 0], className: "measured"}).openTooltip();
 }
 /// Does measuring take this click? The second one of a double click is at the last point and adds none.
 function measures(event) {

@@ -7,8 +7,7 @@ const endBodies = {start: null, goal: null};
 
 /// A goal of any heading shows the one that the path arrives with.
 function showBodyAt(end) {
-  if (endBodies[end]) endBodies[end].remove();
-  endBodies[end] = null;
+  putLayer(endBodies, end);
   const place = question[end], path = answer.json && answer.json.verified ? answer.json.path : [];
   if (!place || (world.radius === 0 && world.outline.length === 0)) return;
   const state = [place.x, place.y], heading = headingShown(end) ?? (path.length ? path[path.length - 1][2] : null);
@@ -20,8 +19,7 @@ function showBodyAt(end) {
 
 function forgetSweep() {
   ++sweep.asked;
-  if (sweep.bodies) sweep.bodies.remove();
-  sweep.bodies = null;
+  putLayer(sweep, "bodies");
 }
 async function showSweep() {
   const layer = layers.get("sweep");
@@ -49,6 +47,5 @@ function drawSweep(layer, json) {
   const color = document.documentElement.classList.contains("dark") ? "#5eead4" : "#0f766e";
   const style = {pane: "layer-sweep", color, weight: 1, opacity: 0.8, fillOpacity: 0.08, interactive: false};
   sweep.bodies = L.layerGroup(json.places.flatMap(place => bodyAt(json, place, style))).addTo(map);
-  const unit = world.unit ? " " + world.unit : "";
-  fillLegend(layer, [{color, words: world.robot + " along the path, every " + shown(json.apart) + unit + " and at its end; " + grouped(json.places.length) + " in sight"}]);
+  fillLegend(layer, [{color, words: world.robot + " along the path, every " + inUnit(json.apart) + " and at its end; " + grouped(json.places.length) + " in sight"}]);
 }

@@ -15,6 +15,8 @@ function digits() {
   const pixel = world.tiles.span / world.tiles.pixels / 2 ** Math.max(0, map.getZoom());
   return Math.min(12, Math.max(0, Math.ceil(-Math.log10(pixel))));
 }
+/// A length as it is told, in the world's unit.
+const inUnit = length => shown(length) + (world.unit ? " " + world.unit : "");
 const rounded = number => Number(number.toFixed(digits()));
 
 /// Where the world's places lie among its tiles.
@@ -84,7 +86,7 @@ function fitWhole(options) {
 const ScaleBar = L.Control.Scale.extend({
   _updateMetric(most) {
     const ten = 10 ** Math.floor(Math.log10(most)), length = ten * [5, 2, 1].find(k => k === 1 || k * ten <= most);
-    this._updateScale(this._mScale, shown(length) + (world.unit ? " " + world.unit : ""), length / most);
+    this._updateScale(this._mScale, inUnit(length), length / most);
   }
 });
 /// Multiples of the least of 1, 2, 5, 10, ... that leaves room between them, as [number, text].
@@ -131,6 +133,16 @@ function onMapKeys(takes) {
     event.stopPropagation();
   }, true);
 }
+/// Pixels that an arrow's key stands for, with shift more.
+function arrowStep(event) {
+  const way = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]}[event.key];
+  return way && L.point(way).multiplyBy(event.shiftKey ? 40 : 8);
+}
+/// "undo" and "redo" by the usual keys.
+function undoStep(event) {
+  const key = event.ctrlKey || event.metaKey ? event.key.toLowerCase() : "";
+  return key === "y" || (key === "z" && event.shiftKey) ? "redo" : key === "z" ? "undo" : null;
+}
 /// A mark of that name; moved(place, is_over) is called while it is dragged, and at the end.
 function makeMark(name, moved) {
   const icon = L.divIcon({className: "mark " + name, iconSize: [22, 22]});
@@ -138,12 +150,11 @@ function makeMark(name, moved) {
   mark.on("drag", () => moved(placeOf(mark.getLatLng()), false));
   mark.on("dragend", () => moved(placeOf(mark.getLatLng()), true));
   mark.on("add", () => mark.getElement().addEventListener("keydown", event => {
-    const step = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]}[event.key];
+    const step = arrowStep(event);
     if (!step) return;
     event.preventDefault();
     event.stopPropagation();
-    const far = event.shiftKey ? 40 : 8;
-    moved(placeOf(map.containerPointToLatLng(map.latLngToContainerPoint(mark.getLatLng()).add([far * step[0], far * step[1]]))), true);
+    moved(placeOf(map.containerPointToLatLng(map.latLngToContainerPoint(mark.getLatLng()).add(step))), true);
   }));
   return mark;
 }
@@ -153,16 +164,20 @@ function putMark(mark, place) {
   if (!map.hasLayer(mark)) mark.addTo(map);
 }
 
+/// In place of the layer of that name, if there is one.
+function putLayer(holder, name, layer = null) {
+  if (holder[name]) holder[name].remove();
+  holder[name] = layer;
+}
 function clearPath() {
-  if (pathLine.line) pathLine.line.remove();
-  if (pathLine.others) pathLine.others.remove();
-  pathLine.line = pathLine.others = pathLine.id = null;
+  putLayer(pathLine, "line");
+  putLayer(pathLine, "others");
+  pathLine.id = null;
   ++pathLine.asked;
 }
 function drawChains(chains) {
-  if (pathLine.line) pathLine.line.remove();
   const points = chains.map(chain => chain.map(p => L.latLng(p[1], p[0])));
-  pathLine.line = L.polyline(points, {color: pathColor(), weight: 4, opacity: 0.9, smoothFactor: 0.2, interactive: false});
+  putLayer(pathLine, "line", L.polyline(points, {color: pathColor(), weight: 4, opacity: 0.9, smoothFactor: 0.2, interactive: false}));
   showParts();
 }
 /// The cheapest of each other class, thinner.

@@ -9,6 +9,7 @@
 #include "core/search/search.hpp"
 #include "parallel/sort.hpp"
 #include "pictures/formats/raster.hpp"
+#include "pictures/model/picture.hpp"
 #include "planners/graph/roadmap_search.hpp"
 
 namespace warren::serve {
@@ -97,30 +98,13 @@ RoadmapLayer::RoadmapLayer(const RoadmapParts& parts, const Execution& execution
   const std::span<const VertexId> component = parts.component;
   constexpr auto others = static_cast<std::uint8_t>(component_inks.size() - 1);
   const std::size_t count = component.size();
-  const auto for_each = [&](const auto& visit) {
-    for (VertexId v = 0; v < count; ++v) {
-      execution.poll(v);
-      visit(v);
-    }
-  };
   execution.reserve(count * (2 * sizeof(std::uint32_t) + 1));
-  std::vector<std::uint32_t> sizes(count, 0);
-  for_each([&](VertexId v) { ++sizes[component[v]]; });
-  // A milestone that no edge is known to join is grey, however few there are.
-  const auto is_before = [&](VertexId a, VertexId b) { return sizes[a] != sizes[b] ? sizes[a] > sizes[b] : a < b; };
-  std::vector<VertexId> largest;
-  for_each([&](VertexId v) {
-    if (sizes[v] == 0) return;
-    ++small_components_;
-    if (sizes[v] == 1 || (largest.size() == others && is_before(largest.back(), v))) return;
-    largest.insert(std::ranges::upper_bound(largest, v, is_before), v);
-    if (largest.size() > others) largest.pop_back();
-  });
-  small_components_ -= largest.size();
-  ranks_.assign(count, others);
-  for (std::size_t rank = 0; rank < largest.size(); ++rank) ranks_[largest[rank]] = static_cast<std::uint8_t>(rank);
-  // A root is the smallest of its component, so it has its rank before others look.
-  for_each([&](VertexId v) { ++of_ink_[ranks_[v] = ranks_[component[v]]]; });
+  ranks_ = component_ranks(component, others, execution);
+  for (VertexId v = 0; v < count; ++v) {
+    execution.poll(v);
+    ++of_ink_[ranks_[v]];
+    if (component[v] == v && ranks_[v] == others) ++small_components_;
+  }
 }
 
 std::string RoadmapLayer::draw(const Box& box, double pixel, RoadmapInk ink, const Execution& execution) const {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Words of a command line against the library's fields: every option has its flag, every enum its words.
-#include "tools/words/planner_words.hpp"
+#include "tools/words/question_words.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "tools/words/question_words.hpp"
 
 namespace warren::tools {
 namespace {
