@@ -10,7 +10,7 @@
 
 #include "bench/report.hpp"
 #include "core/base/rng.hpp"
-#include "planners/lengths/lattice_passages.hpp"
+#include "planners/lengths/core_graph.hpp"
 #include "planners/lengths/route_index.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 

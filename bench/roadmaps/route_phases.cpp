@@ -15,7 +15,6 @@
 #include "core/base/page_pool.hpp"
 #include "core/base/rng.hpp"
 #include "planners/lengths/core_graph.hpp"
-#include "planners/lengths/lattice_passages.hpp"
 #include "planners/lengths/route_index.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 

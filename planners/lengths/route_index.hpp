@@ -47,7 +47,7 @@
 #include "core/base/raw_vector.hpp"
 #include "core/run/execution.hpp"
 #include "parallel/once.hpp"
-#include "planners/lengths/lattice_passages.hpp"
+#include "planners/lengths/core_graph.hpp"
 #include "planners/lengths/separator_fronts.hpp"
 
 namespace warren {

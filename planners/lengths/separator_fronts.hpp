@@ -27,7 +27,6 @@
 #include "core/base/instruction_set.hpp"
 #include "core/run/execution.hpp"
 #include "planners/lengths/core_graph.hpp"
-#include "planners/lengths/lattice_passages.hpp"
 
 namespace warren {
 

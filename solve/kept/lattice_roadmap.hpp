@@ -25,7 +25,7 @@
 #include "core/base/types.hpp"
 #include "core/run/execution.hpp"
 #include "parallel/once.hpp"
-#include "planners/lengths/lattice_passages.hpp"
+#include "planners/lengths/core_graph.hpp"
 #include "planners/lengths/route_index.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/question/question.hpp"

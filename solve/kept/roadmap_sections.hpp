@@ -11,7 +11,7 @@
 #include "core/base/raw_vector.hpp"
 #include "core/run/execution.hpp"
 #include "planners/graph/hierarchy.hpp"
-#include "planners/lengths/lattice_passages.hpp"
+#include "planners/lengths/core_graph.hpp"
 #include "planners/lengths/route_index.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/kept/roadmap_file.hpp"

@@ -15,7 +15,7 @@
 #include "core/run/execution.hpp"
 #include "pictures/model/colors.hpp"
 #include "planners/graph/roadmap_arrays.hpp"
-#include "planners/lengths/lattice_passages.hpp"
+#include "planners/lengths/core_graph.hpp"
 #include "solve/kept/roadmap_query.hpp"
 
 namespace warren::serve {

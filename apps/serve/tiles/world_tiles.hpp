@@ -10,7 +10,7 @@
 
 #include "apps/serve/tiles/web_tile.hpp"
 #include "core/run/execution.hpp"
-#include "planners/lengths/lattice_passages.hpp"
+#include "planners/lengths/core_graph.hpp"
 #include "scenes/scene/scene.hpp"
 
 namespace warren::serve {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "planners/lengths/lattice_passages.hpp"
+#include "planners/lengths/core_graph.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 
 namespace warren::test {

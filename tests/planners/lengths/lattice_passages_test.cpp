@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/lengths/lattice_passages.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The oracle is the world of the plain planner, asked motion by motion; the number of edges is the tiled planner's.
-#include "planners/lengths/lattice_passages.hpp"
+#include "planners/lengths/core_graph.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "planners/lengths/lattice_passages.hpp"
+#include "planners/lengths/core_graph.hpp"
 #include "scenes/files/read_world_io.hpp"
 
 namespace warren {
