@@ -119,10 +119,10 @@ ObstacleTree::ObstacleTree(const Scene& scene, double reach, const Execution& ex
   check_polygons(scene, execution);
   // The judge calls free what is farther than 2.7e-14 (L + 2 r + c) by its own doubles, a tenth of it for its last
   // halving, L being the largest coordinate of obstacles, bounds or map, r the body's radius, c the clearance
-  // (verify/judges/verify_turning.cpp); `reach` is r + c at least. Corners are off by at most 4 roundings of numbers up to
-  // L + r here and there, distances by 8 more of such: 12 x 1.2e-16 each, 0.3e-14 (L + r) in both. A car's legs are off
-  // by 8 more of numbers up to L + R, R in `reach`, and the judge takes 0.1e-14 R. So what is more than 4e-14
-  // (L + 2 reach) away here is farther than the judge asks for there.
+  // (verify/judges/verify_turning.cpp); `reach` is r + c at least. Corners are off by at most 4 roundings of numbers up
+  // to L + r here and there, distances by 8 more of such: 12 x 1.2e-16 each, 0.3e-14 (L + r) in both. A car's legs are
+  // off by 8 more of numbers up to L + R, R in `reach`, and the judge takes 0.1e-14 R. So what is more than 4e-14 (L +
+  // 2 reach) away here is farther than the judge asks for there.
   constexpr double relative = 4e-14;
   Box all = box_;
   if (bounds_) all.include(*bounds_);
