@@ -67,7 +67,9 @@ struct StateList {
   std::size_t width = 2;        ///< numbers a state: 2, 3, or an arm's joints
   std::vector<double> numbers;  ///< width * size() of them
 
+  /// States.
   std::size_t size() const { return numbers.size() / width; }
+  /// Are there none?
   bool empty() const { return numbers.empty(); }
   /// The numbers of state i; i < size().
   std::span<const double> operator[](std::size_t i) const { return std::span(numbers).subspan(i * width, width); }
@@ -167,7 +169,9 @@ struct ClaimedPath {
   Path<Vec2> path;   ///< of the reference point in the plane, as pictures show it; a point's or disc's states
   StateList states;  ///< start to goal, where a state is more than a point of the plane; else empty
 
+  /// States of the path.
   std::size_t state_count() const { return states.empty() ? path.size() : states.size(); }
+  /// Numbers a state.
   std::size_t state_width() const { return states.empty() ? 2 : states.width; }
   /// The numbers of state i.
   std::vector<double> state(std::size_t i) const {

@@ -52,6 +52,7 @@ inline RecordedAnswer read_answer(const std::string& file, const Execution& exec
   return read_answer(InputFile(file, execution), execution);
 }
 
+/// All states of its path.
 std::vector<std::vector<double>> states_of(const RecordedAnswer& answer);
 
 /// Throws InputError unless each state of the path has so many numbers; `body` is whose they are.

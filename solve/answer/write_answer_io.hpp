@@ -21,6 +21,7 @@ void write_answer_json(const Answer& answer, const Execution& execution,
 
 /// {"leg", "distance", "obstacle"}.
 std::string violation_json(const Violation& violation);
+/// As JSON text.
 std::string figure_json(const Figure& figure);
 
 /// A hash that tells two paths apart without their points: FNV-1a of 64 bits over numbers in their order, each as the
@@ -29,6 +30,7 @@ class PathHash {
  public:
   /// Behind those that were added.
   void add(double number);
+  /// As 16 hex digits.
   std::string text() const;
 
  private:

@@ -47,6 +47,7 @@ struct EdgeCounts {
 };
 /// Throws Stopped.
 EdgeCounts count_edges(const Roadmap& roadmap, const Execution& execution);
+/// States of the roadmap.
 inline std::uint64_t count_states(const Roadmap& roadmap) {
   return roadmap.lattice != nullptr ? roadmap.lattice->passages().cell_count() : roadmap.arrays.parts().vertex_count();
 }
@@ -73,6 +74,7 @@ Roadmap build_within(Scene scene, const Question& question, const SolveOptions& 
                      IndexChoice index = IndexChoice::where_it_pays, BuildAccount* account = nullptr,
                      const OldRoadmap* old = nullptr);
 
+/// What update() did.
 struct UpdateAccount {
   bool built_anew = false;           ///< the change is such that nothing could be taken over
   std::uint64_t edges = 0;           ///< of the new roadmap

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solve/kept/export_roadmap.hpp"
+#include "solve/kept/roadmap_formats_io.hpp"
 
 #include <fmt/compile.h>
 #include <fmt/format.h>
@@ -15,6 +15,7 @@
 #include "planners/roadmap/milestones.hpp"
 #include "scenes/files/npy_io.hpp"
 #include "scenes/text/json_text.hpp"
+#include "solve/kept/export_roadmap.hpp"
 #include "solve/kept/roadmap_query.hpp"
 
 namespace warren {

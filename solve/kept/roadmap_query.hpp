@@ -78,6 +78,7 @@ class RoadmapQuery : NotCopied {
   /// Least distance between the body at a place of a lattice and any wall, by the judge of its paths. Throws Stopped,
   /// InputError.
   double clearance_at(Vec2 place, const Execution& execution) const;
+  /// That it refers to.
   const Roadmap& roadmap() const { return roadmap_; }
   /// Length of the motion between two of the roadmap's states, in the world's metric.
   double distance(VertexId from, VertexId to) const;

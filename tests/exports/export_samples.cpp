@@ -14,6 +14,7 @@
 #include "core/base/rng.hpp"
 #include "parallel/chunks.hpp"
 #include "solve/kept/export_roadmap.hpp"
+#include "solve/kept/roadmap_formats_io.hpp"
 #include "tests/solve/kept/listed_roadmap.hpp"
 
 namespace warren {

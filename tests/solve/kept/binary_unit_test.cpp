@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solve/kept/export_roadmap.hpp"
+#include "solve/kept/roadmap_formats_io.hpp"
 
 #include <gtest/gtest.h>
 

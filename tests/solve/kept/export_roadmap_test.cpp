@@ -13,6 +13,7 @@
 #include "core/base/error.hpp"
 #include "core/base/rng.hpp"
 #include "scenes/files/npy_io.hpp"
+#include "solve/kept/roadmap_formats_io.hpp"
 #include "tests/refusals.hpp"
 #include "tests/scenes/files/temporary_directory.hpp"
 #include "tests/seeds.hpp"

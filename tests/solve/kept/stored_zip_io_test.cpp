@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // ZIP64 is asked of a stranger's reader in tests/exports/read_exports.py.
-#include "solve/kept/export_roadmap.hpp"
+#include "solve/kept/roadmap_formats_io.hpp"
 
 #include <gtest/gtest.h>
 
