@@ -5,13 +5,13 @@
 // Walls that are held are filed by tile: each tile holds every wall whose box, grown by the halo, meets the tile, so
 // that a tile can be worked on without looking elsewhere.
 //
-// Two streaming passes over the walls: count, then scatter, all tiles at once or band by band; chunk borders depend on the number of walls alone and each chunk has its own places, so there are no
-// atomics and the order is the walls' order. A wall that is a multiple of
-// 1/128 in every coordinate and at most 64 long along each axis is filed in 8 bytes (NarrowWall), whatever it came as;
-// any other as doubles (wide). A long wall is filed in the tiles that it passes, row of tiles by row of tiles,
-// not in all that its box meets: memory is at most 8 bytes a short wall (32 where it is wide), a few per cent
-// for walls near borders, and one copy a tile passed for long ones; asked of the memory limit before it is taken.
-// Cost: 2 to 3 ns a wall to count, 4 to 6 to scatter (bench/tiled_phases.cpp).
+// Two streaming passes over the walls: count, then scatter, all tiles at once or band by band; chunk borders depend on
+// the number of walls alone and each chunk has its own places, so there are no atomics and the order is the walls'
+// order. A wall that is a multiple of 1/128 in every coordinate and at most 64 long along each axis is filed in 8 bytes
+// (NarrowWall), whatever it came as; any other as doubles (wide). A long wall is filed in the tiles that it passes, row
+// of tiles by row of tiles, not in all that its box meets: memory is at most 8 bytes a short wall (32 where it is
+// wide), a few per cent for walls near borders, and one copy a tile passed for long ones; asked of the memory limit
+// before it is taken. Cost: 2 to 3 ns a wall to count, 4 to 6 to scatter (bench/tiled_phases.cpp).
 #pragma once
 
 #include <algorithm>
