@@ -2,11 +2,11 @@
 // Makes a path cheaper where ways have a price beyond their length, such as a car's changes of gear. A shortcut between
 // two places can't do that: a change falls away only where two ways meet in the same gear. So, round after round, the
 // states of a stretch and states drawn near them are joined by all their ways, and the cheapest path through them is
-// searched by A* that checks a way when it is the next, in a loop of its own: arrivals in either
-// gear are kept apart, where core's best_first keeps one a vertex. What costs more than the stretch does is never
-// looked at. Ends when rounds bring less than 0.1 % for a while, or where the price is the length. Of ways that cost as
-// much up to rounding the one with fewer legs is taken, near the origin and far. Cost: some 4,000 checked ways a round.
-// The path gets cheap, it is no proof of anything.
+// searched by A* that checks a way when it is the next, in a loop of its own: arrivals in either gear are kept apart,
+// where core's best_first keeps one a vertex. What costs more than the stretch does is never looked at. Ends when
+// rounds bring less than 0.1 % for a while, or where the price is the length. Of ways that cost as much up to rounding
+// the one with fewer legs is taken, near the origin and far. Cost: some 4,000 checked ways a round. The path gets
+// cheap, it is no proof of anything.
 #pragma once
 
 #include <algorithm>

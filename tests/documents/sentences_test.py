@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""sentences_test.py [--list N] [PAGE...]: exit code 1 where a page has a sentence of more words than it may have. Tables, headings and
+"""sentences_test.py [--list N] [PAGE...]: exit code 1 where a page has a sentence of more words than it may have, or
+names a file of the tree, such as `planners/grid/price_field`, that is not there. Tables, headings and
 blocks of code are left out, a span of code is one word, and a sentence ends with its paragraph or item of a list.
 --list N prints all sentences of more than N words."""
 import pathlib
@@ -12,6 +13,8 @@ LIMITS = {'README.md': 30, 'docs/tutorial.md': 30, 'docs/service.md': 30, 'docs/
           'docs/other_names.md': 30, 'docs/gallery.md': 30, 'docs/reports.md': 35, 'docs/algorithms.md': 40, 'docs/performance.md': 60}
 
 BOTH_WORDS = ('docs/other_names.md', 'docs/file_formats.md')  # they say that --svg is another name of --picture
+
+NAMES = re.compile(r'`((?:core|parallel|spatial|scenes|worlds|verify|planners|solve|pictures|apps|tools)/[\w/.]*\w)`')
 
 
 def blocks(text):
@@ -49,6 +52,10 @@ def main():
         if page not in BOTH_WORDS and '--svg' in (ROOT / page).read_text(encoding='utf-8'):
             failures += 1
             print(f'{page}: says --svg; one word for one thing: --picture')
+        for name in NAMES.findall((ROOT / page).read_text(encoding='utf-8')):
+            if not (ROOT / name).exists() and not list(ROOT.glob(name + '.*')):
+                failures += 1
+                print(f'{page}: {name} is not there')
         for line, words, sentence in sentences((ROOT / page).read_text(encoding='utf-8')):
             if words > (LIMITS[page] if most is None else most):
                 failures += 1

@@ -349,6 +349,12 @@ world:
   const Outcome ignored = run({"convert", file_, "--robot", robot_, "-o", plain});
   EXPECT_EQ(ignored.code, 2);
   EXPECT_NE(ignored.err.find("--robot: is for --simplify"), std::string::npos) << ignored.err;
+  EXPECT_EQ(run({"info", scene}).code, 65);
+  for (const std::string& other : {file_, roadmap, folder_.path("crane.urdf"), std::string("maze:5x5")}) {
+    const Outcome passed_over = run({"info", other, "--robot", robot_});
+    EXPECT_EQ(passed_over.code, 2) << other;
+    EXPECT_NE(passed_over.err.find("--robot: is for a scene or request of MoveIt"), std::string::npos) << other;
+  }
 }
 
 /// As if the URDF had one fixed joint more; the tool's goals are in the world, and so is what stands in it.
