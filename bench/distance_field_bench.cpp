@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "core/base/rng.hpp"
-#include "spatial/maps/free_cells.hpp"
+#include "spatial/maps/distance_field.hpp"
 
 namespace warren {
 namespace {

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "scenes/text/human_units.hpp"
-#include "spatial/maps/free_cells.hpp"
+#include "spatial/maps/distance_field.hpp"
 
 namespace warren {
 namespace {

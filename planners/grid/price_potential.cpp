@@ -12,7 +12,7 @@
 #include "core/search/search.hpp"
 #include "core/search/search_queues.hpp"
 #include "parallel/chunks.hpp"
-#include "spatial/maps/free_cells.hpp"
+#include "spatial/maps/distance_field.hpp"
 
 namespace warren {
 namespace {

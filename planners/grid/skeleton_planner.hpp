@@ -18,7 +18,7 @@
 #include "core/search/graph.hpp"
 #include "planners/axis/medial_axis_planner.hpp"
 #include "planners/graph/roadmap_options.hpp"
-#include "spatial/maps/free_cells.hpp"
+#include "spatial/maps/distance_field.hpp"
 
 namespace warren {
 

@@ -27,7 +27,7 @@
 #include "solve/kinds/question_of_pose.hpp"
 #include "solve/kinds/solve_steps.hpp"
 #include "solve/question/question_of_arm.hpp"
-#include "spatial/maps/free_cells.hpp"
+#include "spatial/maps/distance_field.hpp"
 #include "verify/near/leg_boxes.hpp"
 #include "worlds/arms/arm_kinematics.hpp"
 #include "worlds/arms/convex_motion.hpp"

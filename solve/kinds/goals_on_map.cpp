@@ -8,7 +8,9 @@
 
 #include "core/base/error.hpp"
 #include "core/base/whole.hpp"
+#include "planners/grid/path_classes.hpp"
 #include "planners/grid/price_field.hpp"
+#include "planners/grid/visiting_order.hpp"
 #include "planners/shorten/taut_path.hpp"
 #include "solve/kinds/solve_steps.hpp"
 #include "verify/judges/verify_classes.hpp"

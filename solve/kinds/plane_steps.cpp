@@ -12,7 +12,7 @@
 #include "scenes/files/plane_formats_io.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "solve/kinds/solve_steps.hpp"
-#include "spatial/maps/free_cells.hpp"
+#include "spatial/maps/distance_field.hpp"
 #include "verify/judges/verify_point.hpp"
 
 namespace warren {

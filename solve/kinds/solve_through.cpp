@@ -13,7 +13,7 @@
 #include <variant>
 
 #include "core/base/error.hpp"
-#include "planners/grid/price_field.hpp"
+#include "planners/grid/visiting_order.hpp"
 #include "solve/kinds/goals_on_map.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 #include "solve/kinds/solve_steps.hpp"

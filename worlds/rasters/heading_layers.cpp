@@ -18,7 +18,7 @@
 #include "core/plane/polygon.hpp"
 #include "core/plane/se2.hpp"
 #include "parallel/chunks.hpp"
-#include "spatial/maps/free_cells.hpp"
+#include "spatial/maps/distance_field.hpp"
 #include "worlds/rasters/convex_pieces.hpp"
 #include "worlds/rasters/lattice_polygons.hpp"
 

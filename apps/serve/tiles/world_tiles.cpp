@@ -14,7 +14,7 @@
 #include "parallel/sort.hpp"
 #include "pictures/formats/raster.hpp"
 #include "solve/kept/lattice_roadmap.hpp"
-#include "spatial/maps/free_cells.hpp"
+#include "spatial/maps/distance_field.hpp"
 #include "spatial/obstacles/box_tree.hpp"
 
 namespace warren::serve {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The K cheapest classes over cells against those that other cuts and a plain search find.
-#include "planners/grid/price_field.hpp"
+#include "planners/grid/path_classes.hpp"
 
 #include <gtest/gtest.h>
 

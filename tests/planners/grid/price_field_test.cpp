@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/base/rng.hpp"
+#include "planners/grid/visiting_order.hpp"
 #include "tests/planners/grid/grid_oracle.hpp"
 #include "tests/seeds.hpp"
 

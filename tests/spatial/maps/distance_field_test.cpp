@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "spatial/maps/free_cells.hpp"
+#include "spatial/maps/distance_field.hpp"
 
 #include <gtest/gtest.h>
 

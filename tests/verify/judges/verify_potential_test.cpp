@@ -10,7 +10,7 @@
 #include "core/base/rng.hpp"
 #include "planners/grid/price_field.hpp"
 #include "planners/grid/price_potential.hpp"
-#include "spatial/maps/free_cells.hpp"
+#include "spatial/maps/distance_field.hpp"
 #include "tests/seeds.hpp"
 
 namespace warren {
