@@ -2,7 +2,6 @@
 #include "planners/grid/price_field.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <limits>
 #include <stdexcept>

@@ -10,7 +10,6 @@
 
 #include <bit>
 #include <utility>
-#include <vector>
 
 #include "planners/graph/any_world.hpp"
 #include "planners/graph/roadmap_search.hpp"

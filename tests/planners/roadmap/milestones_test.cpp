@@ -31,6 +31,13 @@ static_assert(World<SpottedWorld>);
 constexpr Box everywhere{{0, 0}, {1e6, 1e6}};
 constexpr SpottedWorld nothing{0.0, everywhere};
 
+RoadmapOptions on_lattice(LatticeSize size) {
+  RoadmapOptions options;
+  options.sampler = SamplerKind::lattice;
+  options.lattice = size;
+  return options;
+}
+
 /// Filtered one by one, then sorted.
 std::vector<Vec2> by_sorting(const SpottedWorld& world, LatticeSize size, std::uint64_t count) {
   SpottedWorld::Query query;
@@ -42,7 +49,7 @@ std::vector<Vec2> by_sorting(const SpottedWorld& world, LatticeSize size, std::u
   return {sorted.begin(), sorted.end()};
 }
 
-TEST(LatticeMilestones, AreTheFreePointsInTileOrder) {
+TEST(Milestones, OfALatticeAreItsFreePointsInTileOrder) {
   const LatticeSize sizes[] = {{1, 1}, {1, 900}, {900, 1}, {7, 300}, {300, 7}, {64, 64}, {65, 129}, {200, 131}};
   const SpottedWorld worlds[] = {
       {1.0, everywhere}, {0.9, everywhere}, {0.5, everywhere}, {0.02, everywhere}, {0.8, {{20, 3}, {90, 60}}}};
@@ -52,7 +59,7 @@ TEST(LatticeMilestones, AreTheFreePointsInTileOrder) {
       for (const std::uint64_t count : {all, all / 2 + 1}) {
         SCOPED_TRACE(testing::Message() << size.rows << " x " << size.cols << ", " << count << " points, share "
                                         << world.share);
-        const RawVector<Vec2> points = lattice_milestones(WorldView(world), size, count, {}, 2);
+        const RawVector<Vec2> points = draw_milestones(WorldView(world), on_lattice(size), count, {});
         EXPECT_EQ(std::vector<Vec2>(points.begin(), points.end()), by_sorting(world, size, count));
         EXPECT_GE(points.capacity(), points.size() + 2);
       }
@@ -60,24 +67,25 @@ TEST(LatticeMilestones, AreTheFreePointsInTileOrder) {
   }
 }
 
-TEST(LatticeMilestones, AreTheSameForAnyThreadCount) {
+TEST(Milestones, AreTheSameForAnyThreadCount) {
   const SpottedWorld world{0.7, everywhere};
-  const LatticeSize size{500, 400};
-  const RawVector<Vec2> one = lattice_milestones(WorldView(world), size, 200'000, {.threads = 1}, 0);
-  for (const unsigned threads : {2U, 3U, 8U}) {
-    EXPECT_EQ(lattice_milestones(WorldView(world), size, 200'000, {.threads = threads}, 0), one)
-        << threads << " threads";
+  for (RoadmapOptions options : {on_lattice({500, 400}), RoadmapOptions{}}) {
+    const RawVector<Vec2> one = draw_milestones(WorldView(world), options, 200'000, {.threads = 1});
+    for (const unsigned threads : {2U, 3U, 8U}) {
+      EXPECT_EQ(draw_milestones(WorldView(world), options, 200'000, {.threads = threads}), one)
+          << threads << " threads";
+    }
   }
 }
 
-TEST(LatticeMilestones, NoneAreThereWhereNothingIsFree) {
-  EXPECT_TRUE(lattice_milestones(WorldView(nothing), {20, 30}, 600, {}, 2).empty());
+TEST(Milestones, NoneAreThereWhereNothingIsFree) {
+  EXPECT_TRUE(draw_milestones(WorldView(nothing), on_lattice({20, 30}), 600, {}).empty());
 }
 
-TEST(LatticeMilestones, MoreThanHaveNumbersAreRefused) {
+TEST(Milestones, MoreThanHaveNumbersAreRefused) {
   const LatticeSize size{65'536, 32'769};
   const std::uint64_t all = std::uint64_t{size.rows} * size.cols;
-  EXPECT_THROW(lattice_milestones(WorldView(nothing), size, all, {}, 2), InputError);
+  EXPECT_THROW(draw_milestones(WorldView(nothing), on_lattice(size), all, {}), InputError);
 }
 
 }  // namespace
