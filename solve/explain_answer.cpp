@@ -266,13 +266,14 @@ class Hints {
   void add_for_grids() {
     try {
       const GridSpec grid = grid_spec(options_.grid, scene_);
-      offer({"--cell", fmt::format("{:.3g}", 0.5 * grid.cell)}, "what is narrower than a cell is not seen",
-            [&](SolveOptions& options) { options.grid.cell = 0.5 * grid.cell; });
+      if (!scene_.map)
+        offer({"--cell", fmt::format("{:.3g}", 0.5 * grid.cell)}, "what is narrower than a cell is not seen",
+              [&](SolveOptions& options) { options.grid.cell = 0.5 * grid.cell; });
       if (answer_.problem.robot.outline.empty()) return;
       const auto angles = static_cast<std::uint32_t>(2 * grid.angles);
       offer({"--angles", fmt::format("{}", angles)}, "the body turns in smaller steps",
             [&](SolveOptions& options) { options.grid.angles = angles; });
-    } catch (const UsageError&) {  // a map has no raster but its own
+    } catch (const UsageError&) {  // there is no raster
     }
   }
   /// One that proves what it says, else one of another kind.

@@ -409,6 +409,7 @@ class LatticeSearch {
   void shoot(std::uint32_t number, Cell cell, std::uint32_t heading, std::int8_t gear) {
     since_shot_ = 0;
     const std::uint64_t cost = nodes_[number].cost;
+    if (cost >= goal_cost_) return;
     const std::optional<LatticeShot> shot = space_.shot(cell, heading, gear, goal_cost_ - cost, options_.gear_change);
     if (!shot) return;
     goal_cost_ = cost + shot->cost;

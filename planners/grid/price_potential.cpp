@@ -61,20 +61,25 @@ class PricedTriangles {
  private:
   /// For each column the nearest blocked row from a row on, up (itself included) and down. Rows of the outside are -1
   /// and height().
-  void nearest_rows(std::vector<std::int32_t>& above, std::vector<std::int32_t>& below) const {
+  void nearest_rows(std::vector<std::int32_t>& above, std::vector<std::int32_t>& below,
+                    const Execution& execution) const {
     above.resize(blocked_.size());
     below.resize(blocked_.size());
     const auto rows = as_whole<std::int32_t>(height());
-    for (std::uint32_t x = 0; x < width(); ++x) {
-      std::int32_t last = -1;
-      for (std::uint32_t y = 0; y < height(); ++y) {
-        below[std::size_t{y} * width() + x] = last;
-        if (blocked_.test(x, y)) last = as_whole<std::int32_t>(y);
+    std::vector<std::int32_t> last(width(), -1);
+    for (std::uint32_t y = 0; y < height(); ++y) {
+      execution.check();
+      for (std::uint32_t x = 0; x < width(); ++x) {
+        below[std::size_t{y} * width() + x] = last[x];
+        if (blocked_.test(x, y)) last[x] = as_whole<std::int32_t>(y);
       }
-      last = rows;
-      for (std::uint32_t y = height(); y-- > 0;) {
-        if (blocked_.test(x, y)) last = as_whole<std::int32_t>(y);
-        above[std::size_t{y} * width() + x] = last;
+    }
+    last.assign(width(), rows);
+    for (std::uint32_t y = height(); y-- > 0;) {
+      execution.check();
+      for (std::uint32_t x = 0; x < width(); ++x) {
+        if (blocked_.test(x, y)) last[x] = as_whole<std::int32_t>(y);
+        above[std::size_t{y} * width() + x] = last[x];
       }
     }
   }
@@ -83,7 +88,7 @@ class PricedTriangles {
   void price(const Execution& execution) {
     std::vector<std::int32_t> above;
     std::vector<std::int32_t> below;
-    nearest_rows(above, below);
+    nearest_rows(above, below, execution);
     const DistanceField field(blocked_, CellDistance::squares, true, execution);
     const double paid = question_.radius + question_.reach;
     const auto around = bounded_whole<std::int64_t>(std::ceil(paid) + 1.0, 1.0, 1e9);

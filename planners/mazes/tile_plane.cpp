@@ -245,10 +245,16 @@ bool is_of(const TileSummary& tile, std::uint32_t side) {
     return chain.from < keys && chain.to < keys && chain.length > 0 && has_steps;
   };
   const bool chains = std::all_of(tile.chains.begin(), tile.chains.end(), stands);
+  if (!ascends || !within || !chains) return false;
+  constexpr std::uint8_t most_ends = 4;
+  std::vector<std::uint8_t> ends(keys, 0);
+  for (const Chain& chain : tile.chains) {
+    if (++ends[chain.from] > most_ends || ++ends[chain.to] > most_ends) return false;
+  }
   const auto crosses = [&](const std::vector<std::uint16_t>& crossing) {
     return std::all_of(crossing.begin(), crossing.end(), [&](std::uint16_t key) { return key < keys; });
   };
-  return ascends && within && chains && std::all_of(tile.crossings.begin(), tile.crossings.end(), crosses);
+  return std::all_of(tile.crossings.begin(), tile.crossings.end(), crosses);
 }
 
 /// Column or row, by the side (0 right, 1 above, 2 left, 3 below), of the points that cross it.

@@ -222,7 +222,7 @@ class Ask {
       solution_.counters.refused += refused_motions(query);
     } else {
       end_edges_ = attach_start_and_goal(world_, roadmap_.states, roadmap_.index, roadmap_.rule, ends_[0], ends_[1],
-                                         solution_.counters);
+                                         solution_.counters, execution_);
     }
     const std::uint64_t known = one_way && roadmap_.is_lazy ? 0 : end_edges_.size();
     solution_.roadmap = {vertex_count(), roadmap_.free_edges + known, 0};

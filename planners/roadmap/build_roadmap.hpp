@@ -260,7 +260,7 @@ class RoadmapBuild {
   RawVector<Edge> attached(const State& state) const {
     if constexpr (!W::one_way) {
       Counters counters;
-      return attach(world_, built_.states, index_, built_.rule, state, no_vertex, counters);
+      return attach(world_, built_.states, index_, built_.rule, state, no_vertex, counters, execution_);
     } else {
       auto query = world_.make_query();
       RawVector<Edge> edges;

@@ -120,9 +120,11 @@ inline double root(double x, std::size_t n) {
 }  // namespace detail
 
 /// k = e (1 + 1/d) ln n, or radius = 2 ((1 + 1/d) V / B ln n / n)^(1/d), with B the volume of the unit ball and V that
-/// of the sampled space, which is not less than the free one's. UsageError where the world doesn't tell V.
+/// of the sampled space, which is not less than the free one's; of a space that is one state as of a line. UsageError
+/// where the world doesn't tell V.
 inline ConnectionRule star_rule(StarRule rule, std::uint64_t samples, std::size_t dimension, double volume) {
   const double n = std::max(static_cast<double>(samples), 2.0);
+  dimension = std::max<std::size_t>(dimension, 1);
   const auto d = static_cast<double>(dimension);
   if (rule == StarRule::neighbours) {
     return {0.0, static_cast<std::uint32_t>(std::ceil(std::numbers::e * (1.0 + 1.0 / d) * portable::log(n)))};
@@ -289,12 +291,13 @@ EdgeParts connect_milestones(const W& world, std::span<const typename W::State> 
 
 /// The free edges from `vertex` (start or goal, which stands at `state` and is no milestone) to milestones: those
 /// within the rule; where none of them is free, to the nearest free one of the 256 nearest. Or, where the rule says so,
-/// those within a radius that grows.
+/// those within a radius that grows. Throws Stopped.
 template <World W>
 RawVector<Edge> attach(const W& world, std::span<const typename W::State> milestones, const StateIndex<W>& index,
-                       const ConnectionRule& rule, const typename W::State& state, VertexId vertex,
-                       Counters& counters) {
+                       const ConnectionRule& rule, const typename W::State& state, VertexId vertex, Counters& counters,
+                       const Execution& execution) {
   constexpr std::size_t farthest = 256;
+  constexpr std::uint64_t checks_per_poll = 64;
   auto query = world.make_query();
   const auto at = embedded(world, state);
   RawVector<Edge> edges;
@@ -303,8 +306,9 @@ RawVector<Edge> attach(const W& world, std::span<const typename W::State> milest
   const auto try_rest = [&](bool first_only) {
     ++counters.neighbour_queries;
     for (; tried < near.size() && !(first_only && !edges.empty()); ++tried) {
-      ++counters.edges_checked;
-      if (world.is_free_motion(state, milestones[near[tried].id], query)) edges.push_back({near[tried].id, vertex});
+      if (++counters.edges_checked % checks_per_poll == 0) execution.check();
+      if (world.is_free_motion(state, milestones[near[tried].id], query))
+        push_asked(edges, {near[tried].id, vertex}, execution);
     }
   };
   const auto look = [&] {
@@ -341,12 +345,12 @@ RawVector<Edge> attach(const W& world, std::span<const typename W::State> milest
 template <World W>
 RawVector<Edge> attach_start_and_goal(const W& world, std::span<const typename W::State> milestones,
                                       const StateIndex<W>& index, const ConnectionRule& rule,
-                                      const typename W::State& start, const typename W::State& goal,
-                                      Counters& counters) {
+                                      const typename W::State& start, const typename W::State& goal, Counters& counters,
+                                      const Execution& execution) {
   const auto start_vertex = static_cast<VertexId>(milestones.size());
   const VertexId goal_vertex = start_vertex + 1;
-  RawVector<Edge> edges = attach(world, milestones, index, rule, start, start_vertex, counters);
-  const RawVector<Edge> at_goal = attach(world, milestones, index, rule, goal, goal_vertex, counters);
+  RawVector<Edge> edges = attach(world, milestones, index, rule, start, start_vertex, counters, execution);
+  const RawVector<Edge> at_goal = attach(world, milestones, index, rule, goal, goal_vertex, counters, execution);
   edges.insert(edges.end(), at_goal.begin(), at_goal.end());
   if (world.distance(start, goal) > direct_reach(rule)) return edges;
   auto query = world.make_query();

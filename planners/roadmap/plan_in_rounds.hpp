@@ -88,7 +88,7 @@ class Rounds {
   /// The free edges of start and goal, whose motions are all that takes time here.
   RawVector<Edge> attach_ends(const StateIndex<W>& index, const ConnectionRule& rule) {
     const StageTimer timer(execution_, "checks", solution_.seconds.connect);
-    return attach_start_and_goal(world_, milestones(), index, rule, start_, goal_, solution_.counters);
+    return attach_start_and_goal(world_, milestones(), index, rule, start_, goal_, solution_.counters, execution_);
   }
   ConnectionRule rule_for(std::uint64_t samples) const { return connection_rule_for(world_, options_, samples); }
   auto estimate() const {

@@ -119,12 +119,16 @@ class MotionTree {
                                  Counters& counters) {
     return join(from, towards(from, to, step), query, counters);
   }
-  /// Grows from `from` towards `to` step by step: the last vertex, which stands at `to` where nothing is in the way.
-  VertexId connect(VertexId from, const State& to, double step, typename W::Query& query, Counters& counters) {
-    while (!(states_[from] == to)) {
-      const std::optional<VertexId> next = extend(from, to, step, query, counters);
-      if (!next) break;
-      from = *next;
+  /// Grows from `from` towards `to` step by step: the last vertex, which stands at `to` where nothing is in the way,
+  /// goes_on() says so before each motion, and a step gets anywhere in the states' numbers.
+  template <class GoesOn>
+  VertexId connect(VertexId from, const State& to, double step, typename W::Query& query, Counters& counters,
+                   const GoesOn& goes_on) {
+    while (!(states_[from] == to) && goes_on()) {
+      const State next = towards(from, to, step);
+      const std::optional<VertexId> grown = next == states_[from] ? std::nullopt : join(from, next, query, counters);
+      if (!grown) break;
+      from = *grown;
     }
     return from;
   }

@@ -115,7 +115,7 @@ class RrtConnectSearch {
     while (!arrived() && !gave_up() && goes_on()) {
       execution.check();
       for (MotionTree<W>& tree : trees_) tree.ask_room(execution, 1, options_->trees);  // a bit of failed_
-      take_step();
+      take_step(execution);
     }
     counters_.refused = refused_motions(query_);
   }
@@ -142,7 +142,7 @@ class RrtConnectSearch {
     }
     return true;
   }
-  void take_step() {
+  void take_step(const Execution& execution) {
     const std::size_t side = turn_;
     MotionTree<W>& mine = trees_[side];
     std::optional<State> target = next_target();
@@ -156,7 +156,8 @@ class RrtConnectSearch {
     if (!leave_joints(*target, mine.state(from))) return;
     const State next = mine.towards(from, *target, step_);
     if (!is_worth(side, from, next)) return;
-    if (const auto grown = mine.join(from, next, query_, counters_)) return meet(side, gone_on(side, *grown, *target));
+    if (const auto grown = mine.join(from, next, query_, counters_))
+      return meet(side, gone_on(side, *grown, *target), execution);
     if (!options_->domain) return;
     if (from >= failed_[side].size()) failed_[side].resize(mine.size());
     failed_[side][from] = true;
@@ -178,14 +179,20 @@ class RrtConnectSearch {
            trees_[side].cost(from) + trees_[side].length(from, next) + least_rest(side, next) < most_;
   }
   /// Grows the other tree towards a new state of this one.
-  void meet(std::size_t side, VertexId grown) {
+  void meet(std::size_t side, VertexId grown, const Execution& execution) {
+    constexpr std::uint64_t motions_a_poll = 64;
     MotionTree<W>& other = trees_[1 - side];
     const State& state = trees_[side].state(grown);
     const VertexId from = other.nearest(state, counters_);
     const bool bounded = most_ != unbounded;
     if (bounded && !(trees_[side].cost(grown) + other.cost(from) + other.length(from, state) < most_)) return;
     meeting_[side] = grown;
-    meeting_[1 - side] = other.connect(from, state, step_, query_, counters_);
+    std::uint64_t motions = 0;
+    meeting_[1 - side] = other.connect(from, state, step_, query_, counters_, [&] {
+      if (++motions % motions_a_poll == 0) execution.check();
+      other.ask_room(execution, 1, options_->trees);
+      return !gave_up();
+    });
     arrived_ = other.state(meeting_[1 - side]) == state && (!bounded || cost() < most_);
   }
   /// Does an obstacle near to the vertex take the most of samples so far away?

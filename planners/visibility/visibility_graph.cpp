@@ -315,7 +315,9 @@ std::vector<Edge> sampled_visibility(const PolygonIndex& polygons, Vec2 start, V
     const double length = distance(a, b);
     const double between = of_end ? length / places_of_ends : step;
     const double places = length > 0.0 ? std::floor(length / between) : 0.0;
+    std::uint64_t looked_at = 0;
     for (double k = 0.0; k <= places; ++k) {
+      execution.poll(++looked_at);
       const double t = length > 0.0 ? k * between / length : 0.0;
       if (is_inside(a + t * (b - a))) return false;
     }

@@ -5,9 +5,14 @@
 //   angles radians|degrees                of all joint lines; default radians
 //   joint D A ALPHA LOW HIGH [OFFSET]     from the base to the tip, 1 to 6 of them
 //   tool X Y Z                            of the last frame; default 0 0 0
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <numbers>
+#include <set>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -49,11 +54,13 @@ DhJoint read_joint(Fields& fields, std::size_t joints_before) {
 DhTable read_dh_table(const InputFile& file, const Execution& execution) {
   DhTable table;
   double unit = 1.0;
+  std::set<std::string, std::less<>> said;
   TextLines lines(file, execution);
   while (lines.next()) {
     Fields fields = lines.fields();
     if (fields.done()) continue;
     const std::string_view item = fields.word();
+    if (item != "joint" && !said.emplace(item).second) fields.place().fail(fmt::format("a second `{}` line", item));
     if (item == "joint") {
       table.joints.push_back(read_joint(fields, table.joints.size()));
     } else if (item == "convention") {

@@ -336,7 +336,16 @@ class ArmModelMaker {
       if (variables_[leader] == no_variable || (leader != j && !matters[joint.below])) {
         frames_[joint.below] = frames_[joint.above];
         poses_[joint.below] = joint.moves() ? origin * motion(joint, held_[j]) : origin;
-        if (joint.moves()) push_asked(model_.standing, {joint.name, held_[j]}, execution_);
+        if (variables_[leader] != no_variable) {
+          push_asked(model_.idle_followers,
+                     {.name = joint.name,
+                      .variable = variables_[leader],
+                      .multiplier = joint.multiplier,
+                      .offset = joint.offset},
+                     execution_);
+        } else if (joint.moves()) {
+          push_asked(model_.standing, {joint.name, held_[j]}, execution_);
+        }
         continue;
       }
       if (model_.joints.size() == most_frames) {

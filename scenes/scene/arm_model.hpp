@@ -101,6 +101,7 @@ struct ArmModel {
   std::vector<std::string> assumed;  ///< what is taken for granted, a line each: pairs of links that always touch, …
   std::vector<std::string> told = {};  ///< what its reader has to say, a line each: hulls against their meshes, …
   std::vector<std::pair<std::string, double>> standing = {};  ///< joints that could move and stand still, and where
+  std::vector<ArmJoint> idle_followers = {};  ///< that mimic a variable and carry nothing: without a frame
 };
 
 /// How far a variable goes from one state to the next: of a continuous one within half a turn to either side.

@@ -508,10 +508,10 @@ class BlockedArm {
 void explain_reach(Answer& answer, const Vec3& place, const ArmProblem& problem) {
   double reach = problem.table ? problem.table->tool.translation().norm() : reach_of(problem);
   const double away = (place - problem.model.base).norm();
-  if (!problem.table && !(away > reach)) return;  // what others might reach
   if (problem.table) {
     for (const DhJoint& joint : problem.table->joints) reach += portable::hypot(joint.a, joint.d);
   }
+  if ((!problem.table || problem.goal_pose) && !(away > reach)) return;  // what others might reach
   answer.blocked = BlockedEnd{.is_start = false, .by = "outside of what the tool reaches within the joints' limits"};
   answer.blocked->hint =
       fmt::format("it is {} from the base, and {} {}", human_number(away),
@@ -519,10 +519,13 @@ void explain_reach(Answer& answer, const Vec3& place, const ArmProblem& problem)
                   human_number(reach));
 }
 
-std::string degrees_hint(std::span<const double> angles) {
+std::string degrees_hint(std::span<const double> values, std::span<const ArmVariable> joints) {
   constexpr double a_turn_and_a_bit = 6.3;
-  const auto large = std::ranges::find_if(angles, [](double a) { return std::abs(a) > a_turn_and_a_bit; });
-  return large == angles.end() ? "" : fmt::format("angles are in radians: {0} degrees are {0}deg", *large);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!joints[i].slides && std::abs(values[i]) > a_turn_and_a_bit)
+      return fmt::format("angles are in radians: {0} degrees are {0}deg", values[i]);
+  }
+  return "";
 }
 
 void tell(Answer& answer, bool is_start, const Violation& met, const BlockedArm& arm, const JointState& q) {
@@ -558,7 +561,7 @@ void explain_blocked_arm(const Scene& scene, Answer& answer, const Execution& ex
   if (only_touches) met = arm.met(q, arm.margin());
   if (!met) return;
   tell(answer, is_start, *met, arm, q);
-  answer.blocked->hint = only_touches ? std::string(touching_hint) : degrees_hint(asked);
+  answer.blocked->hint = only_touches ? std::string(touching_hint) : degrees_hint(asked, arm.problem().model.variables);
   std::optional<JointState> free = arm.free_posture(q);
   if (!free) return;
   answer.blocked->free_place.assign(free->begin(), free->begin() + as_whole<std::ptrdiff_t>(asked.size()));

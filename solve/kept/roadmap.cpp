@@ -37,11 +37,11 @@ void refuse_what_is_asked_later(const SolveOptions& options) {
 }
 
 /// Any start and goal: what is built does not depend on them.
-Question without_ends(const Scene& scene, Question question) {
+Question without_ends(const Scene& scene, Question question, const Execution& execution) {
   RobotSpec robot = robot_of(scene, question);
   std::size_t width = state_size(robot);
   if (robot.files) {
-    robot.files->read = arm_model_of(robot, 0.0, {});
+    robot.files->read = arm_model_of(robot, 0.0, execution);
     width = robot.files->read->variables.size();
     if (width <= 3) throw UsageError("@robot: a roadmap is kept of arms with four joints or more");
     question.robot = std::move(robot);
@@ -232,7 +232,8 @@ EdgeCounts count_edges(const Roadmap& roadmap, const Execution& execution) {
   return {counts.unchecked / 2, counts.free / 2, counts.blocked / 2};
 }
 
-void check_buildable(const Scene& scene, const Question& question, const SolveOptions& options) {
+void check_buildable(const Scene& scene, const Question& question, const SolveOptions& options,
+                     const Execution& execution) {
   question.validate();
   options.validate();
   refuse_what_is_asked_later(options);
@@ -250,7 +251,7 @@ void check_buildable(const Scene& scene, const Question& question, const SolveOp
         fmt::format("@{}: kept roadmaps are asked for one goal; solve takes it", name_of(words.members().front())));
   }
   check_headings(scene, question);
-  builder_of(options, scene, without_ends(scene, question));
+  builder_of(options, scene, without_ends(scene, question, execution));
 }
 
 Roadmap build_within(Scene scene, const Question& question, const SolveOptions& options, const Execution& execution,
@@ -259,12 +260,12 @@ Roadmap build_within(Scene scene, const Question& question, const SolveOptions& 
   roadmap.index = index;
   roadmap.options = options;
   roadmap.options.planner = options.planner.value_or(PlannerKind::prm);
-  check_buildable(scene, question, roadmap.options);
+  check_buildable(scene, question, roadmap.options, execution);
   roadmap.prices = prices_of(scene, question);
   scene.prices = {};
   roadmap.world = KeptWorld(std::move(scene));
   const Scene& world = roadmap.world.outline();  // all of it
-  Question asked = without_ends(world, question);
+  Question asked = without_ends(world, question, execution);
   asked.prices = roadmap.prices;
   const ChosenSolver solver = builder_of(roadmap.options, world, asked);
   roadmap.robot = robot_of(world, asked);

@@ -66,8 +66,9 @@ struct OldRoadmap;
 Roadmap build(Scene scene, const Question& question = {}, const SolveOptions& options = {}, const Limits& limits = {},
               IndexChoice index = IndexChoice::where_it_pays);
 
-/// Throws what build() throws before it works, for options that name a planner.
-void check_buildable(const Scene& scene, const Question& question, const SolveOptions& options);
+/// Throws what build() throws before it works, for options that name a planner; an arm's files are read.
+void check_buildable(const Scene& scene, const Question& question, const SolveOptions& options,
+                     const Execution& execution = {});
 
 /// The same under an execution. `old`: update's.
 Roadmap build_within(Scene scene, const Question& question, const SolveOptions& options, const Execution& execution,

@@ -57,7 +57,7 @@ class CarLattice {
         radius_(robot.turning_radius),
         start_(start),
         goals_(goals.begin(), goals.end()),
-        cell_(cell_of(scene, body.box(), robot.turning_radius, options)),
+        cell_(cell_of(scene, box_of(body, start), start, robot.turning_radius, options)),
         motions_(motion_options(robot, options, cell_), execution),
         query_(body.make_query()),
         prices_(options.prices) {
@@ -206,11 +206,36 @@ class CarLattice {
             static_cast<std::uint32_t>(std::int64_t{from.y} + motion.dy)};
   }
   static constexpr double exactly = 1e-10;  // cells and radians: what is so near to a state is it
-  static double cell_of(const Scene& scene, const Box& box, double turning_radius, const CarLatticeOptions& options) {
+  static Box box_of(const CarBody& body, const Se2& start) {
+    Box box = body.box();
+    box.include(start.position());
+    return box;
+  }
+  /// Cells on two sides of the start, and in all.
+  struct Extent {
+    double left, below, wide, high;
+  };
+  static Extent extent_of(const Box& box, const Se2& start, double cell) {
+    const auto cells = [&](double length) { return std::ceil(length / cell) + 1.0; };
+    const double left = cells(start.x - box.min.x);
+    const double below = cells(start.y - box.min.y);
+    return {left, below, left + cells(box.max.x - start.x) + 1.0, below + cells(box.max.y - start.y) + 1.0};
+  }
+  /// Throws UsageError before any motion is made of cells that are too many.
+  static double cell_of(const Scene& scene, const Box& box, const Se2& start, double turning_radius,
+                        const CarLatticeOptions& options) {
     constexpr double share = 0.125;
     constexpr double cells_a_side = 2000.0;
     const double usual = std::max(share * turning_radius, std::max(box.width(), box.height()) / cells_a_side);
-    return scene.map ? scene.map->cell : options.cell.value_or(usual);
+    if (scene.map) return scene.map->cell;
+    const double cell = options.cell.value_or(usual);
+    const Extent extent = extent_of(box, start, cell);
+    constexpr double most = 1e8;
+    if (extent.wide * extent.high <= most) return cell;
+    throw UsageError(
+        fmt::format("@cell: {} is too small: the world has {:.6g} x {:.6g} such cells, and {:.0e} are the "
+                    "most that a lattice of a car has",
+                    cell, extent.wide, extent.high, most));
   }
   static MotionSetOptions motion_options(const RobotSpec& robot, const CarLatticeOptions& options, double cell) {
     return {.headings = options.headings,
@@ -241,23 +266,10 @@ class CarLattice {
       origin_ = scene.map->origin + Rotation(yaw_rad_)(Vec2{0.5 * cell_, 0.5 * cell_});
       return;
     }
-    Box box = body_.box();
-    box.include(start.position());
-    const auto cells = [&](double length) { return std::ceil(length / cell_) + 1.0; };
-    const double left = cells(start.x - box.min.x);
-    const double below = cells(start.y - box.min.y);
-    const double wide = left + cells(box.max.x - start.x) + 1.0;
-    const double high = below + cells(box.max.y - start.y) + 1.0;
-    constexpr double most = 1e8;
-    if (!(wide * high <= most)) {
-      throw UsageError(
-          fmt::format("@cell: {} is too small: the world has {:.6g} x {:.6g} such cells, and {:.0e} are the "
-                      "most that a lattice of a car has",
-                      cell_, wide, high, most));
-    }
-    width_ = static_cast<std::uint32_t>(wide);
-    height_ = static_cast<std::uint32_t>(high);
-    origin_ = start.position() - cell_ * Vec2{left, below};
+    const Extent extent = extent_of(box_of(body_, start), start, cell_);
+    width_ = static_cast<std::uint32_t>(extent.wide);
+    height_ = static_cast<std::uint32_t>(extent.high);
+    origin_ = start.position() - cell_ * Vec2{extent.left, extent.below};
   }
   /// Planning keeps beyond the clearance what worlds/poses/car_world keeps, and what coordinates are rounded by.
   void index_map(const OccupancyMap& map, const RobotSpec& robot, double clearance) {

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <set>
-#include <stdexcept>
 
 #include "core/base/error.hpp"
 #include "core/base/whole.hpp"
@@ -68,6 +67,10 @@ class Choosing {
         more = ways_.region(goals_[i], *rule_.region, i);
       } else if (is_free(goals_[i])) {
         more = ways_.entries(goals_[i], i);
+      }
+      if (ends_.empty()) {
+        ends_ = std::move(more);
+        continue;
       }
       ends_.insert(ends_.end(), more.begin(), more.end());
     }
@@ -370,8 +373,8 @@ class Routes {
     return path;
   }
 
-  /// The cheapest, by the judge's cuts as well as by those that answers tell. Only the path that was found without
-  /// alternatives is of another one's class.
+  /// The cheapest, by the judge's cuts as well as by those that answers tell: the path that was found without
+  /// alternatives is of another one's class, and one over the cells of a hole may be of two.
   void keep_one_a_class(std::vector<AlternativePath>& paths) const {
     std::vector<Path<Vec2>> all;
     for (const AlternativePath& path : paths) all.push_back(path.path);
@@ -384,7 +387,6 @@ class Routes {
         for (auto* list : {&judged.classes, &judged.told}) list->erase(list->begin() + dearer);
       }
     }
-    if (paths.size() + 1 < all.size()) throw std::logic_error("two alternatives are of one class by the judge's cuts");
   }
 
   WaysOverCells& ways_;

@@ -18,6 +18,7 @@
 #include "core/base/solution.hpp"
 #include "core/base/types.hpp"
 #include "core/run/execution.hpp"
+#include "parallel/asked_memory.hpp"
 #include "planners/grid/price_field.hpp"
 #include "scenes/scene/occupancy_map.hpp"
 #include "solve/answer/answer.hpp"
@@ -88,9 +89,9 @@ class WaysOverCells {
       for (double column = first; column <= last; ++column) {
         const Cell cell{static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row)};
         const Vec2 at = cell_centre(map_, cell);
-        if (!wide_.test(cell.x, cell.y) && distance(at, place) <= radius) found.push_back({cell, 0, at, goal});
+        if (!wide_.test(cell.x, cell.y) && distance(at, place) <= radius)
+          push_asked(found, {cell, 0, at, goal}, execution_);
       }
-      execution_.reserve(found.size() * sizeof(Entry));
     }
     return found;
   }
@@ -107,6 +108,7 @@ class WaysOverCells {
     if (there != ends.end()) return Way{{}, 0, from, *there};
     const std::vector<Entry> begins = entries(from);
     std::vector<PriceField::Goal> goals;
+    execution_.reserve(ends.size() * 3 * sizeof(PriceField::Goal));  // the field keeps two copies
     for (const Entry& end : ends) goals.push_back({end.cell, end.cost});
     std::vector<Cell> towards;
     for (const Entry& begin : begins) towards.push_back(begin.cell);

@@ -18,14 +18,18 @@ namespace {
 
 using State = std::vector<double>;
 
+/// From one value of a number to another; joints: of an arm, those without end go the shorter way.
+double way(std::span<const ArmVariable> joints, std::size_t i, double from, double to) {
+  return i < joints.size() ? variable_way(joints[i], from, to) : to - from;
+}
+
 /// The state at a share of the motion; a heading turns the shorter way.
-State between(const State& a, const State& b, double share, bool of_arm) {
+State between(const State& a, const State& b, double share, bool of_arm, std::span<const ArmVariable> joints) {
   if (share <= 0.0) return a;
   if (share >= 1.0) return b;
   State state = a;
   for (std::size_t i = 0; i < a.size(); ++i) {
-    const double way = a.size() == 3 && i == 2 && !of_arm ? turn_between(a[2], b[2]) : b[i] - a[i];
-    state[i] += share * way;
+    state[i] += share * (a.size() == 3 && i == 2 && !of_arm ? turn_between(a[2], b[2]) : way(joints, i, a[i], b[i]));
   }
   return state;
 }
@@ -36,19 +40,20 @@ struct OnRoute {
 };
 
 /// Of bodies of the plane the place counts, of arms all joints.
-OnRoute nearest_on(const State& a, const State& b, const State& to, bool of_arm) {
+OnRoute nearest_on(const State& a, const State& b, const State& to, bool of_arm, std::span<const ArmVariable> joints) {
   const std::size_t compared = of_arm ? to.size() : 2;
   double along = 0.0;
   double length_sq = 0.0;
   for (std::size_t i = 0; i < compared; ++i) {
-    along += (b[i] - a[i]) * (to[i] - a[i]);
-    length_sq += (b[i] - a[i]) * (b[i] - a[i]);
+    const double whole = way(joints, i, a[i], b[i]);
+    along += whole * way(joints, i, a[i], to[i]);
+    length_sq += whole * whole;
   }
   OnRoute found;
   found.share = length_sq > 0.0 ? std::clamp(along / length_sq, 0.0, 1.0) : 0.0;
   double sum = 0.0;
   for (std::size_t i = 0; i < compared; ++i) {
-    const double off = a[i] + found.share * (b[i] - a[i]) - to[i];
+    const double off = way(joints, i, to[i], a[i] + found.share * way(joints, i, a[i], b[i]));
     sum += off * off;
   }
   found.distance = std::sqrt(sum);
@@ -93,6 +98,12 @@ std::vector<State> asked_goals(const Answer& answer) {
   return goals;
 }
 
+/// Of an arm of files.
+std::span<const ArmVariable> joints_of(const Problem& problem) {
+  const auto& files = problem.robot.files;
+  return files && files->read ? std::span<const ArmVariable>(files->read->variables) : std::span<const ArmVariable>();
+}
+
 /// Where it ends; none: the goal is a place of an arm's tool, and the judge asks.
 std::optional<PathEnd> check_route(const RouteRule& rule, const Answer& answer) {
   const std::vector<State>& route = rule.keep_to;
@@ -109,9 +120,7 @@ std::optional<PathEnd> check_route(const RouteRule& rule, const Answer& answer) 
     throw UsageError(
         fmt::format("@keep_to: the path's states have {} numbers, the body's {}", state.size(), problem.start.size()));
   }
-  std::span<const ArmVariable> joints;  // that have names
-  if (const auto& files = problem.robot.files; files && files->read) joints = files->read->variables;
-  if (names_other_joints(rule.joints, joints))
+  if (names_other_joints(rule.joints, joints_of(problem)))
     throw UsageError("@keep_to: the path is of other joints than the robot's, or in another order");
   if (problem.goal_pose) return std::nullopt;
   const std::vector<State> goals = asked_goals(answer);
@@ -172,20 +181,20 @@ void take(Answer& answer, const std::vector<State>& states, const Cost& cost) {
 }  // namespace
 
 std::vector<State> rest_of_route(const std::vector<State>& route, const State& start, double slack, bool is_cut,
-                                 bool of_arm) {
+                                 bool of_arm, std::span<const ArmVariable> joints) {
   if (route.empty()) return {};
   if (route.size() == 1) return {start, route.front()};
   std::vector<OnRoute> on(route.size() - 1);
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < on.size(); ++i) {
-    on[i] = nearest_on(route[i], route[i + 1], start, of_arm);
+    on[i] = nearest_on(route[i], route[i + 1], start, of_arm, joints);
     least = std::min(least, on[i].distance);
   }
   std::size_t leg = 0;
   while (leg + 1 < on.size() && on[leg].distance > least + slack) ++leg;
   while (leg + 1 < on.size() && on[leg + 1].distance < on[leg].distance) ++leg;  // on with this pass
   std::vector<State> rest{start};
-  const State place = between(route[leg], route[leg + 1], on[leg].share, of_arm);
+  const State place = between(route[leg], route[leg + 1], on[leg].share, of_arm, joints);
   if (is_cut && place != start && on[leg].share < 1.0) rest.push_back(place);
   for (std::size_t i = leg + 1; i < route.size(); ++i) {
     if (route[i] != rest.back()) rest.push_back(route[i]);
@@ -208,7 +217,8 @@ void keep_to_route(Answer& answer, const Scene& scene, const Question& question,
   // So far from its route the body is still on it.
   const double slack = extent_of(problem.robot) + (scene.map ? scene.map->cell : 0.0);
   const bool is_car = problem.robot.kind == RobotKind::car;
-  const std::vector<State> rest = rest_of_route(rule.keep_to, problem.start, slack, !is_car, is_arm(problem.robot));
+  const std::vector<State> rest =
+      rest_of_route(rule.keep_to, problem.start, slack, !is_car, is_arm(problem.robot), joints_of(problem));
   KeptRoute told;
   const std::optional<Cost> kept = cost_now(rest, scene, question, problem, end.has_value(), execution);
   if (kept) told.kept_cost = kept->sum;

@@ -137,7 +137,7 @@ class Arm : public UsualBody<ArmProblem> {
     constexpr double beyond_doubt = 1.001;  // places are met to within a tolerance
     const Vec3 place = problem_.goal_pose ? Vec3(problem_.goal_pose->translation()) : problem_.goal_place();
     if ((place - problem_.model.base).norm() > beyond_doubt * world.kinematics().reach()) return {};
-    if (!problem_.table || !has_puma560_shape(SerialChain(*problem_.table))) {
+    if (problem_.goal_pose || !problem_.table || !has_puma560_shape(SerialChain(*problem_.table))) {
       tried_ = states.size();
       knows_all_ = false;
       return {};

@@ -129,7 +129,8 @@ class Car : public PoseBody {
     const auto bound = static_cast<double>(std::min(found.bound, found.path.cost));
     answer.figures.push_back({"lattice_cost", over.unit * static_cast<double>(found.path.cost)});
     answer.figures.push_back({"lattice_bound", over.unit * bound * (1.0 - 1e-6)});
-    answer.figures.push_back({"lattice_gap", static_cast<double>(found.path.cost) / bound - 1.0});
+    const auto cost = static_cast<double>(found.path.cost);
+    answer.figures.push_back({"lattice_gap", cost > bound ? cost / bound - 1.0 : 0.0});
     return std::move(over.path);
   }
   /// Along the curve; the same both ways where it is one.

@@ -184,7 +184,6 @@ class CellSolve {
     take_ways(choice);
     if (problem_.rule.region) {
       const std::vector<double>& asked = answer_.goal_reached->asked;
-      answer_.path = cut_at_region(std::move(answer_.path), {asked[0], asked[1]}, *problem_.rule.region);
       reached.goal = answer_.path.back();
       answer_.goal_reached->distance = distance(reached.goal, Vec2{asked[0], asked[1]});
       answer_.problem.goal = {reached.goal.x, reached.goal.y};
@@ -210,7 +209,7 @@ class CellSolve {
     return *ways_;
   }
 
-  /// Leg by leg, so that no stop is cut off.
+  /// Leg by leg, so that no stop is cut off; the last one ends where it comes into the region.
   void take_ways(const GoalChoice& choice) {
     std::uint64_t cells = 0;
     std::uint64_t weight = 0;
@@ -224,6 +223,10 @@ class CellSolve {
       answer_.path = path_over_cells(map_, way.from, way.cells, way.end.place);
       if (wants_taut()) optimise();
       raw += answer_.raw_length.value_or(0.0);
+      if (problem_.rule.region && &way == &choice.ways.back()) {
+        const std::vector<double>& asked = answer_.goal_reached->asked;
+        answer_.path = cut_at_region(std::move(answer_.path), {asked[0], asked[1]}, *problem_.rule.region);
+      }
       whole.insert(whole.end(), answer_.path.begin() + 1, answer_.path.end());
     }
     if (answer_.raw_length) answer_.raw_length = raw;

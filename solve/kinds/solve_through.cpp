@@ -279,8 +279,7 @@ class Visits {
         options_(request.options) {
     question_.rule = {};
     question_.goal_pose.reset();
-    if (question_.goal.empty() && !request.question.goal_pose)
-      question_.goal = request.scene.goal;                     // of several the first
+    if (question_.goal.empty() && !request.question.goal_pose) question_.goal = request.scene.goal;
     options_.optimise = request.planner != PlannerKind::grid;  // of a car's that would price what nobody asked for
     options_.anytime = {};
     const Scene& scene = request.scene;
@@ -442,6 +441,10 @@ void check_stops(const SolveRequest& request) {
   const std::vector<std::vector<double>>& visit = request.question.rule.visit;
   if (!via.empty() && !visit.empty()) {
     throw UsageError("@visit: finds the order of its places, and @via says one; leave one of them out");
+  }
+  const bool asks_scene = request.question.goal.empty() && !request.question.goal_pose && !request.question.rule.back;
+  if (!visit.empty() && asks_scene && (!request.scene.other_goals.empty() || request.scene.named_goals.size() > 1)) {
+    throw UsageError("@visit: is for one goal, and the world has several; say which by @goal");
   }
   const RobotSpec robot = robot_of(request.scene, request.question);
   if (request.question.route.alternatives && !via.empty()) {

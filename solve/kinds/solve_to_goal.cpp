@@ -27,7 +27,7 @@ class ToGoal {
 
   Answer run() {
     const bool is_refused = request_.scene.map && is_round(robot_of(request_.scene, request_.question));
-    if (goals_.front().empty() || is_refused) return kind_.solve(request_);  // which says what is missing, or why
+    if (goals_.front().size() < 2 || is_refused) return kind_.solve(request_);  // which says what is missing, or why
     if (rule_.region && (!find_places() || plan_to_places())) return told();
     // Who gets better would spend all the time on a goal that is cut off.
     const bool keeps_time = rule_.tolerance && gets_better(request_.planner) && is_cut_off();

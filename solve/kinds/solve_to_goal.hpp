@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "core/plane/se2.hpp"
+#include "scenes/scene/arm_model.hpp"
 #include "solve/answer/answer.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 #include "solve/question/question.hpp"
@@ -133,10 +134,11 @@ Answer solve_to_goal(const SolveKind& kind, const SolveRequest& request);
 /// What is left of a route for a robot that stands at `start`: from there to the route's place nearest to it, then on.
 /// Of places that are as near but for `slack` the first counts, so that nobody jumps to where the route comes by again.
 /// is_cut: may the route begin within one of its motions? else it begins with the state after. States are numbers of
-/// one count; of bodies of the plane the first two are their place, of arms all are joints. Empty: the route is.
+/// one count; of bodies of the plane the first two are their place, of arms all are joints, of which those without end
+/// go the shorter way. Empty: the route is.
 std::vector<std::vector<double>> rest_of_route(const std::vector<std::vector<double>>& route,
                                                const std::vector<double>& start, double slack, bool is_cut,
-                                               bool of_arm = false);
+                                               bool of_arm = false, std::span<const ArmVariable> joints = {});
 
 /// Decides, where the question asks, and tells in the answer. Throws UsageError for routes of another body or to
 /// another goal, and where costs can't be compared; Stopped.

@@ -268,7 +268,8 @@ class FixedAngleSolve : UnturnedSolve {
     PlaneObstacles obstacles;
     {
       const StageTimer timer(request_.execution, "index", answer_.seconds.index);
-      obstacles = translation_obstacles(request_.scene, outline, problem_.start.theta, room, disc_corners);
+      obstacles =
+          translation_obstacles(request_.scene, outline, problem_.start.theta, room, disc_corners, request_.execution);
     }
     const Vec2 start = problem_.start.position();
     const Vec2 goal = problem_.goal_pose().position();

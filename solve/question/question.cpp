@@ -231,6 +231,9 @@ std::optional<Vec2> plane_point(const std::vector<double>& state) {
 void check_plannable(const Scene& scene, const Question& problem) {
   const RobotSpec robot = robot_of(scene, problem);
   const std::string where = problem.robot ? fmt::format("@robot: in {}, ", scene.source) : scene.source + ": ";
+  if (problem.goal_pose && !is_arm(robot)) {
+    throw UsageError(fmt::format("@goal_pose: is of an arm's tool, and a {} has none; say @goal", name_of(robot.kind)));
+  }
   if (is_arm(robot)) {
     if (!is_flat(scene)) return;
     throw UsageError(

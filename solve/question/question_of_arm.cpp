@@ -32,8 +32,9 @@ std::vector<double> state_of(std::string_view option, const std::vector<double>&
 
 /// Of a joint that is no variable; nothing: it neither moves nor is held.
 std::optional<double> place_of_joint(const ArmProblem& problem, std::span<const double> state, std::string_view name) {
-  for (const ArmJoint& joint : problem.model.joints) {
-    if (joint.name == name) return joint.multiplier * state[joint.variable] + joint.offset;
+  for (const auto* joints : {&problem.model.joints, &problem.model.idle_followers}) {
+    const auto found = std::ranges::find(*joints, name, &ArmJoint::name);
+    if (found != joints->end()) return found->multiplier * state[found->variable] + found->offset;
   }
   for (const auto& [standing, value] : problem.model.standing) {
     if (standing == name) return value;
@@ -183,7 +184,13 @@ DhTable table_of(const RobotSpec& robot, const Execution& execution) {
 
 ArmModel arm_model_of(const RobotSpec& robot, double clearance, const Execution& execution) {
   if (robot.kind != RobotKind::urdf) {
-    return model_of(table_of(robot, execution), robot.radius, robot.self_collision, clearance);
+    const DhTable table = table_of(robot, execution);
+    try {
+      return model_of(table, robot.radius, robot.self_collision, clearance);
+    } catch (const InputError& error) {
+      if (robot.table.empty()) throw;
+      throw InputError(fmt::format("{}: {}", robot.table, error.where()), error.wrong(), error.value());
+    }
   }
   if (robot.files->read) return *robot.files->read;
   ArmModel model = read_urdf(*robot.files, execution);
@@ -245,6 +252,7 @@ std::vector<JointState> goal_states(const ArmProblem& problem, const Execution& 
   std::vector<JointState> states;
   for (const auto& wrist : wrists_to_try(problem, *chain)) {
     for (const JointState& q : puma560_inverse_place(*chain, problem.goal_place(), wrist)) {
+      execution.check();
       if (std::ranges::find(states, q) == states.end()) states.push_back(q);
     }
   }

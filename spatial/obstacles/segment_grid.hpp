@@ -2,7 +2,7 @@
 // A uniform grid that lists, for each square cell, the segments that meet the closed cell (and a few that only come
 // near it): what a walk from cell to cell along a line needs to meet every segment on the line. About as many cells as
 // segments; larger ones where long segments would be listed too often. Build O(segments + listings); a listing is 4
-// bytes, a cell 4. Far-away single segments make all cells large: a world that is crowded in one spot is served slowly,
+// bytes, a cell 8. Far-away single segments make all cells large: a world that is crowded in one spot is served slowly,
 // never wrongly.
 #pragma once
 

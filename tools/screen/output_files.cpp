@@ -72,7 +72,8 @@ void check_picture_ending(std::string_view option, const std::string& file, std:
 constexpr std::array<std::string_view, 16> output_options{
     "--path",  "--json",   "--picture", "--table",  "--html",         "--csv",    "--runs",   "--log",
     "--trace", "--output", "--keep",    "--report", "--save-roadmap", "--resume", "--curves", "--certificate"};
-constexpr std::array<std::string_view, 5> input_options{"--answer", "--map", "--batch", "--matrix", "--world"};
+constexpr std::array<std::string_view, 6> input_options{"--answer", "--map",   "--batch",
+                                                        "--matrix", "--world", "--srdf"};
 
 /// Where a file is, or will be: two are the same file exactly if their places are equal.
 struct Place {

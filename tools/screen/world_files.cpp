@@ -26,6 +26,7 @@
 #include "solve/answer/world_account.hpp"
 #include "solve/kept/roadmap_file.hpp"
 #include "solve/kept/roadmap_file_io.hpp"
+#include "solve/question/question_of_arm.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"
@@ -183,6 +184,12 @@ std::vector<std::string> write_world(const Scene& scene, const std::string& file
   if (!is_picture(ending_of(file))) {
     write_scene(scene, file, execution);
     return {};
+  }
+  if (scene.robot && is_arm(*scene.robot)) {
+    const Drawing drawn = drawing_of(scene, RecordedAnswer{}, execution, options.heading);
+    Picture picture = picture_of(scene, drawn);
+    picture.description = command_line;
+    return write_picture(file, picture, options, execution);
   }
   Picture picture{.scene = scene, .start = plane_point(scene.start), .goal = plane_point(scene.goal)};
   picture.title = title_of(scene);

@@ -58,7 +58,10 @@ std::string head_of(std::string_view name, std::string_view summary) {
   }
   std::time_t when = std::time(nullptr);
   // NOLINTNEXTLINE(concurrency-mt-unsafe): nothing here sets variables
-  if (const char* epoch = std::getenv("SOURCE_DATE_EPOCH")) when = std::strtoll(epoch, nullptr, 10);
+  if (const char* epoch = std::getenv("SOURCE_DATE_EPOCH")) {
+    constexpr long long last = 253'402'300'799;  // of year 9999
+    when = std::clamp(std::strtoll(epoch, nullptr, 10), 0LL, last);
+  }
   return fmt::format(".TH {} 1 {:%Y-%m-%d} \"warren {}\" \"User Commands\"\n.SH NAME\n{} \\- {}\n", escaped(capitals),
                      fmt::gmtime(when), WARREN_VERSION, escaped(name), escaped(summary));
 }

@@ -90,6 +90,8 @@ int info(const Arguments& arguments) {
   const auto json = output_file(arguments, "--json");
   const std::string& path = arguments.operand(0);
   const bool check = arguments.has("--check");
+  if (const auto what = arguments.value("--check"); what && *what != "all")
+    throw UsageError(fmt::format("--check: takes `all` (found: '{}')", *what));
   Run run(arguments);
   std::optional<InputFile> file;
   if (!is_made_source(path)) file.emplace(path, run.execution());

@@ -213,6 +213,7 @@ int profile(const Arguments& arguments) {
   constexpr std::uint32_t usual_runs = 5;
   const Question question = question_words(arguments);
   const SolveOptions options = solve_words(arguments);
+  check_not_written(arguments, question.robot, question.prices);
   const auto runs = given_count(arguments, "--runs", 1, most_runs).value_or(usual_runs);
   const bool standard_output_taken = check_reports(arguments, {"--json", "--picture"});
   check_plots(arguments);

@@ -86,7 +86,7 @@ int ask_many(const Arguments& arguments) {
   const BatchOptions options{solve_words(arguments), arguments.has("--lengths-only"), arguments.has("--csv")};
   const auto keep_file = output_file(arguments, "--keep");
   const std::string why = fmt::format("is for one question; {} has many", is_table ? "--matrix" : "--batch");
-  arguments.refuse({"--start", "--goal", "--json", "--picture", "--explain"}, why);
+  arguments.refuse({"--start", "--goal", "--json", "--picture", "--explain", "--no-path"}, why);
   arguments.refuse(picture_option_specs(), why);
   arguments.refuse(path_option_specs(), why);
   Run run(arguments);

@@ -47,6 +47,7 @@ class SolveCommand : public AnswerCommand {
         options_(solve_words(arguments)) {
     check_not_written(arguments, question_.robot, question_.prices);
     check_solver_options(options_);
+    if (keeps_roadmap()) arguments.refuse({"--resume"}, "is for streamed runs, which keep no roadmap");
   }
 
  private:

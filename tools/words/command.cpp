@@ -101,7 +101,7 @@ void Arguments::check_operands(const Command& command) const {
   if (operands_.size() <= needed.size()) return;
   const std::string extra = "unexpected argument '" + operands_[needed.size()] + "'";
   if (operands_[0] == "maze") {
-    const bool is_world = needed[0].ends_with("WORLD");
+    const bool is_world = !needed.empty() && needed[0].find("WORLD") != std::string::npos;
     throw UsageError(extra + (is_world ? "; a maze is called maze:41x41" : "; its size is one word, 41x41"));
   }
   throw UsageError(extra + (options_.empty() ? "" : "; a value of several words is quoted: --robot \"disc 0.2\""));

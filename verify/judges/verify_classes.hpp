@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Are paths on a map of different homotopy classes? By cuts of the judge's own: from the rightmost cell of each hole a
 // ray leads to the right, through whatever is there; the rays that a path crosses, in order, inverse neighbours
-// cancelled, tell its class. Holes as planners understand them (planners/grid/price_field), found here by other code.
+// cancelled, tell its class. Holes as planners understand them (planners/grid/path_classes), found here by other code.
 #pragma once
 
 #include <cstdint>

@@ -102,14 +102,14 @@ MotionVerdict ArmWorld::judge_motion(const State& a, const State& b) const {
 double ArmWorld::sampled_volume() const {
   double volume = 1.0;
   for (std::size_t j = 0; j < ways_.size(); ++j) {
-    if (kinematics_.moves(j)) volume *= ways_[j].high - ways_[j].low;
+    if (is_sampled(j)) volume *= ways_[j].high - ways_[j].low;
   }
   return volume;
 }
 
 std::size_t ArmWorld::sampled_dimension() const {
   std::size_t count = 0;
-  for (std::size_t j = 0; j < ways_.size(); ++j) count += kinematics_.moves(j) ? 1 : 0;
+  for (std::size_t j = 0; j < ways_.size(); ++j) count += is_sampled(j) ? 1 : 0;
   return count;
 }
 

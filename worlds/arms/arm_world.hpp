@@ -62,7 +62,7 @@ class ArmWorld {
 
   double suggested_samples(const Execution&) const { return 200.0; }
   std::uint64_t first_samples() const { return 25; }  ///< of a roadmap that is tried first
-  /// Volume, in the metric, of the box of limits of the variables that are not idle, and how many these are.
+  /// Volume, in the metric, of the box of limits of the variables that move something, and how many these are.
   double sampled_volume() const;
   std::size_t sampled_dimension() const;
   /// Joints that there are.
@@ -73,6 +73,8 @@ class ArmWorld {
   double resolution() const { return resolution_; }
 
  private:
+  bool is_sampled(std::size_t j) const { return kinematics_.moves(j) && ways_[j].low < ways_[j].high; }
+
   ArmKinematics kinematics_;
   std::vector<ArmVariable> ways_;  // the model's variables
   double resolution_;

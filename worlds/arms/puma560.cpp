@@ -91,16 +91,19 @@ class ShoulderAndElbow {
   double side_;      // offset from that plane
 };
 
-/// The angle and all full turns from it that are within a joint's limits.
+/// The angle and the full turns from it that are within a joint's limits: of many the few nearest to 0, for the arm
+/// stands alike in all of them, and six joints multiply.
 std::vector<double> turns_within(const SerialChain& chain, std::size_t joint, double angle) {
   constexpr double rounding = 1e-12;
+  constexpr double most = 3.0;
   std::vector<double> angles;
-  const double low = chain.low(joint) - rounding;
-  for (double k = std::ceil((low - angle) / whole_turn);; k += 1.0) {
-    const double turned = angle + k * whole_turn;
-    if (turned > chain.high(joint) + rounding) return angles;
-    angles.push_back(std::clamp(turned, chain.low(joint), chain.high(joint)));
+  const double first = std::ceil((chain.low(joint) - rounding - angle) / whole_turn);
+  const double last = std::floor((chain.high(joint) + rounding - angle) / whole_turn);
+  const double begin = std::clamp(std::round(-angle / whole_turn) - 1.0, first, std::max(first, last - most + 1.0));
+  for (double k = begin; k <= last && k < begin + most; k += 1.0) {
+    angles.push_back(std::clamp(angle + k * whole_turn, chain.low(joint), chain.high(joint)));
   }
+  return angles;
 }
 
 void add_turns(const SerialChain& chain, const JointState& angles, std::vector<JointState>& all) {

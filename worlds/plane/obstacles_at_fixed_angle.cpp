@@ -35,18 +35,20 @@ Box shrunk(const Box& bounds, const std::vector<std::vector<Vec2>>& mirrored) {
 }  // namespace
 
 PlaneObstacles translation_obstacles(const Scene& scene, std::span<const Vec2> outline, double theta, double room,
-                                     std::size_t disc_corners) {
+                                     std::size_t disc_corners, const Execution& execution) {
   check_body(outline, "robot", {});
-  check_polygons(scene, {});
+  check_polygons(scene, execution);
   const std::vector<std::vector<Vec2>> body = mirrored_pieces(outline, theta, room, disc_corners);
   PlaneObstacles obstacles;
   const auto add_sums = [&](std::span<const Vec2> piece) {
     for (const std::vector<Vec2>& mirrored : body) obstacles.polygons.add(minkowski_sum(piece, mirrored));
   };
   for (const ScenePolygon& polygon : scene.polygons) {
+    execution.check();
     for (const std::vector<Vec2>& piece : convex_pieces(polygon.corners)) add_sums(piece);
   }
   for (std::size_t i = 0; i < scene.walls.size(); ++i) {
+    execution.poll(i);
     const Segment wall = scene.walls.segment(i);
     const std::vector<Vec2> ends = wall.a == wall.b ? std::vector{wall.a} : std::vector{wall.a, wall.b};
     add_sums(ends);

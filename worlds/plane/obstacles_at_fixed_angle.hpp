@@ -8,6 +8,7 @@
 
 #include "core/base/types.hpp"
 #include "core/plane/polygon.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/scene.hpp"
 
 namespace warren {
@@ -15,8 +16,8 @@ namespace warren {
 /// outline: around the reference point, three or more corners. room: distance that shall be kept, > 0; the polygons
 /// keep at least that much, and at corners up to 1 / cos(pi / disc_corners) times as much: 0.5 % more for 32.
 /// InputError for outlines that are no simple polygons, and where the body doesn't fit in the bounds at all. Without
-/// bounds the box of the obstacles confines the reference point, and becomes the bounds.
+/// bounds the box of the obstacles confines the reference point, and becomes the bounds. Throws Stopped.
 PlaneObstacles translation_obstacles(const Scene& scene, std::span<const Vec2> outline, double theta, double room,
-                                     std::size_t disc_corners = 32);
+                                     std::size_t disc_corners = 32, const Execution& execution = {});
 
 }  // namespace warren

@@ -126,7 +126,7 @@ MotionSet::MotionSet(const MotionSetOptions& options, const Execution& execution
   for (std::uint32_t k = 0; k < options.headings / 4; ++k) add_shapes(k, execution);
   for (std::uint32_t i = 0; i < shapes_.size(); ++i) {
     execution.check();
-    relaxed_ratio_ = std::max(relaxed_ratio_, ratio_of(shapes_[i]));
+    relaxed_ratio_ = std::max(relaxed_ratio_, ratio_of(shapes_[i], execution));
     add_motions(i);
   }
 }
@@ -230,7 +230,7 @@ void MotionSet::add_motions(std::uint32_t number) {
 
 /// The shortest chain of steps to the motion's end over cells whose middles are within `slack` of its way, against its
 /// length: a Dijkstra among a few dozen cells.
-double MotionSet::ratio_of(const MotionShape& shape) const {
+double MotionSet::ratio_of(const MotionShape& shape, const Execution& execution) const {
   if (is_on_spot(shape.word.pieces[0].steer)) return 1.0;
   const double rho = options_.turning_radius;
   const SteeringCurve curve({0.0, 0.0, radians_[shape.from]}, {1.0 * shape.dx, 1.0 * shape.dy, radians_[shape.to]},
@@ -256,12 +256,15 @@ double MotionSet::ratio_of(const MotionShape& shape) const {
   };
   constexpr double unknown = -1.0;
   constexpr double never = std::numeric_limits<double>::infinity();
-  std::vector<double> reached(as_whole<std::size_t>(width) * as_whole<std::size_t>(height), unknown);
+  const std::size_t cells = as_whole<std::size_t>(width) * as_whole<std::size_t>(height);
+  execution.reserve(cells * sizeof(double));
+  std::vector<double> reached(cells, unknown);
   using Entry = std::pair<double, Vector>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
   reached[number(0, 0)] = 0.0;
   open.push({0.0, {0, 0}});
   while (!open.empty()) {
+    execution.check();  // each may be held against all of the way
     const auto [cost, at] = open.top();
     open.pop();
     if (at[0] == shape.dx && at[1] == shape.dy) return cost / curve.length();

@@ -87,7 +87,7 @@ class MotionSet {
   void add_shapes(std::uint32_t from, const Execution& execution);
   void add_turns(std::uint32_t from, std::uint32_t to);
   void add_motions(std::uint32_t shape);
-  double ratio_of(const MotionShape& shape) const;
+  double ratio_of(const MotionShape& shape, const Execution& execution) const;
 
   MotionSetOptions options_;
   std::vector<std::array<std::int32_t, 2>> vectors_;

@@ -60,6 +60,13 @@ bool restricts(const Prices& prices) {
   });
 }
 
+bool is_dear(const PriceMask& mask) {
+  for (int value = 1; value <= 100; ++value) {
+    if (mask_factor(mask, value).value_or(1.0) > 1.0) return true;
+  }
+  return false;
+}
+
 std::optional<double> mask_factor(const PriceMask& mask, int value) {
   if (value <= 0) return 1.0;
   switch (mask.kind) {

@@ -40,6 +40,8 @@ Scene restricted_scene(const Scene& scene, const Prices& prices, const Execution
 
 /// A mask's value in that use: its factor, >= 1; none: blocked.
 std::optional<double> mask_factor(const PriceMask& mask, int value);
+/// Does some value cost more than nothing, without being blocked?
+bool is_dear(const PriceMask& mask);
 /// Calls each(cells, x, y, factor) for the cells of value > 0 of the masks that were read. Throws Stopped.
 template <class Each>
 void for_mask_cells(const Prices& prices, const Execution& execution, const Each& each) {
@@ -90,7 +92,7 @@ class AreaFactors {
       areas_.push_back(std::move(own));
     }
     for (const PriceMask& mask : prices.masks) {
-      if (!mask.read) continue;
+      if (!mask.read || !is_dear(mask)) continue;
       // The axes from the far corners, so that their rounding is that of one cell.
       const double width = mask.read->width;
       const double height = mask.read->height;

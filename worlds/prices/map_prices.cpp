@@ -339,17 +339,6 @@ PriceParts MapPrices::parts(Vec2 a, Vec2 b, Scratch& scratch) const {
 
 double MapPrices::cost(Vec2 a, Vec2 b, Scratch& scratch) const { return distance(a, b) + parts(a, b, scratch).sum(); }
 
-double MapPrices::nearness_at(Vec2 p, Scratch& scratch) const {
-  if (!(reach_ > 0.0)) return 0.0;
-  const Vec2 at = map_point(map_, p);
-  const Cell cell = cell_of(map_, at);
-  gather(cell, at, {1.0, 0.0}, scratch);
-  double least = reach_;
-  for (const StretchDistance& thing : scratch.things) least = std::min(least, thing(0.0));
-  const double share = 1.0 - least / reach_;
-  return price_ * share * share;
-}
-
 /// From the middle of a cell to the place of its rim where the step leaves it; in cells.
 double MapPrices::half_step(Cell cell, unsigned direction, Scratch& scratch) const {
   const Vec2 middle{cell.x + 0.5, cell.y + 0.5};

@@ -113,8 +113,6 @@ class MapPrices {
   /// The leg from the middle of a free cell to that of its free neighbour; direction: of cell_steps
   /// (spatial/maps/free_cells.hpp). Whole units of 2^-20 cell, rounded up; there and back weigh the same.
   std::uint64_t step_up(Cell from, unsigned direction, Scratch& scratch) const;
-  /// What nearness costs at a free place of the map, a unit of length.
-  double nearness_at(Vec2 p, Scratch& scratch) const;
 
  private:
   double nearness(Vec2 a, Vec2 b, Scratch& scratch) const;

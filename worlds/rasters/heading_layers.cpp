@@ -58,7 +58,9 @@ LayerJob turn_job(const std::vector<ConvexPiece>& pieces, std::uint32_t angles) 
 /// reference point. Headings at which the body covers the same set share their jobs. O(headings squared) comparisons.
 /// Job i makes bitmap i; fills in standing, moving and turning. outline: a polygon around the reference point, or that
 /// alone.
-std::vector<LayerJob> list_layer_jobs(std::span<const Vec2> outline, HeadingLayers& layers) {
+std::vector<LayerJob> list_layer_jobs(std::span<const Vec2> outline, HeadingLayers& layers,
+                                      const Execution& execution) {
+  execution.reserve(layers.angles * 6 * (sizeof(LayerJob) + 4 * outline.size() * sizeof(Vec2)));
   std::vector<LayerJob> jobs;
   const auto add = [&](LayerJob job) {
     jobs.push_back(std::move(job));
@@ -66,6 +68,7 @@ std::vector<LayerJob> list_layer_jobs(std::span<const Vec2> outline, HeadingLaye
   };
   std::vector<ConvexPiece> keys;
   for (std::uint32_t k = 0; k < layers.angles; ++k) {
+    execution.check();
     keys.push_back(key_of(turned(outline, k, layers.angles)));
     const auto same = as_whole<std::size_t>(std::find(keys.begin(), keys.end(), keys.back()) - keys.begin());
     if (same < k) {
@@ -146,7 +149,7 @@ HeadingLayers exact_layers(const Scene& scene, const RobotSpec& robot, const Lay
     for_each_side(polygon.corners, [&](Vec2 a, Vec2 b) { sides.push_back({a, b}); });
   }
   const std::vector<Vec2> middle{{0.0, 0.0}};
-  const auto jobs = list_layer_jobs(robot.kind == RobotKind::polygon ? robot.outline : middle, layers);
+  const auto jobs = list_layer_jobs(robot.kind == RobotKind::polygon ? robot.outline : middle, layers, execution);
   execution.reserve(jobs.size() * (layers.width / 8 + 8) * std::size_t{layers.height});
   layers.bitmaps = parts_of_chunks(jobs.size(), 1, execution, [&](Range r) {
     return touching_bitmap(jobs[r.first], scene, sides, radius, layers, execution);
@@ -405,7 +408,7 @@ HeadingLayers map_layers(const OccupancyMap& map, std::span<const Vec2> outline,
   const double size = map.cell * (double{1} * map.width() + map.height());
   const double room = clearance + rounding * (std::abs(map.origin.x) + std::abs(map.origin.y) + size);
   HeadingLayers layers{{0.5 * map.cell, 0.5 * map.cell}, map.cell, map.width(), map.height(), angles, {}, {}, {}, {}};
-  const std::vector<LayerJob> jobs = list_layer_jobs(outline, layers);
+  const std::vector<LayerJob> jobs = list_layer_jobs(outline, layers, execution);
   execution.reserve(jobs.size() * map.blocked.bytes());
   layers.bitmaps = parts_of_chunks(jobs.size(), 1, execution, [&](Range r) {
     const Stamp stamp = stamp_of(jobs[r.first], map.cell, room, execution);

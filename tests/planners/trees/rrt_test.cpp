@@ -331,6 +331,25 @@ TEST(Rrt, ServesPointsAmongWallsToo) {
   }
 }
 
+TEST(RrtConnect, TinyStepsNeitherPassTheLimitOfNodesNorGoOnForEver) {
+  Scene scene;
+  scene.bounds = Box{{0, 0}, {10, 10}};
+  scene.walls = WallSet::narrowest(std::vector<Segment>{{{5, 0}, {5, 1}}});
+  const MazeWorld world(scene, 0.1, {});
+  const Vec2 goal{9, 9};
+  for (const double step : {1e-4, 1e-18}) {
+    SCOPED_TRACE(step);
+    const auto solution =
+        rrt_connect(WorldView(world), Vec2{1, 1}, std::span(&goal, 1), {.step = step, .nodes = 500}, {});
+    EXPECT_EQ(solution.outcome, Outcome::not_connected);
+    EXPECT_LE(solution.roadmap.milestones, 501U);
+  }
+  const Deadline soon(0.05);
+  const RrtOptions endless{.step = 1e-7, .nodes = most_samples};
+  const auto stopped = rrt_connect(WorldView(world), Vec2{1, 1}, std::span(&goal, 1), endless, {.deadline = &soon});
+  EXPECT_EQ(stopped.outcome, Outcome::stopped);
+}
+
 TEST(Rrt, RefusesOptionsOutOfRange) {
   const auto message = [](const RrtOptions& asked) { return test::refusal<InputError>([&] { asked.validate(); }); };
   EXPECT_EQ(message({}), "");
@@ -435,6 +454,8 @@ TEST(PrmStar, NeighboursAndRadiusFollowTheSamples) {
   // 2 (3/2 V / pi ln n / n)^(1/2)
   EXPECT_NEAR(star_rule(StarRule::radius, 1000, 2, 10.0).radius, 0.3632, 1e-3);
   EXPECT_THROW(star_rule(StarRule::radius, 1000, 3, 0.0), UsageError);
+  // Of an arm none of whose joints moves anything.
+  EXPECT_EQ(star_rule(StarRule::neighbours, 1000, 0, 0.0), star_rule(StarRule::neighbours, 1000, 1, 0.0));
 }
 
 }  // namespace

@@ -69,6 +69,8 @@ TEST(DhTable, RefusesBadInputInOneLineThatNamesFileAndLine) {
                         {"angles\n", "expected `angles radians|degrees`"},
                         {"angles degrees please\n", "expected `angles radians|degrees`"},
                         {"tool 1 2\n", "expected `tool X Y Z`"},
+                        {"tool 0 0 1\njoint 0 1 0 -1 1\ntool 0 0 2\n", ":3: a second `tool` line"},
+                        {"angles degrees\nangles radians\n", ":2: a second `angles` line"},
                         {"link 1 2\n", "expected one of joint, convention, angles, tool (found: link)"},
                         {seven.c_str(), ":7: an arm has at most 6 joints"}};
   for (const Case& c : cases) {

@@ -327,6 +327,16 @@ TEST_F(Urdf, MimicsFollowAlongChainsAndNarrowLimits) {
   EXPECT_EQ(model.joints[2].offset, 0.5);
   EXPECT_EQ(model.variables[0].low, -1.0);
   EXPECT_EQ(model.variables[0].high, 2.0);
+  // One that carries nothing has no frame, but follows: a state may name it where it is.
+  const std::string idle = joint("4", "revolute", "b", "e",
+                                 "<limit lower=\"-9\" upper=\"9\"/><mimic joint=\"1\" multiplier=\"3\" offset=\"1\"/>");
+  const ArmModel with_idle = read(robot(links + "<link name=\"e\"/>" + first + second + third + idle));
+  EXPECT_EQ(with_idle.joints.size(), 3U);
+  EXPECT_TRUE(with_idle.standing.empty());
+  ASSERT_EQ(with_idle.idle_followers.size(), 1U);
+  EXPECT_EQ(with_idle.idle_followers[0].name, "4");
+  EXPECT_EQ(with_idle.idle_followers[0].multiplier, 3.0);
+  EXPECT_EQ(with_idle.idle_followers[0].offset, 1.0);
   const std::string ends =
       joint("3", "revolute", "c", "d",
             "<limit lower=\"-1\" upper=\"0\"/><mimic joint=\"2\" multiplier=\"0.5\" offset=\"-1\"/>");

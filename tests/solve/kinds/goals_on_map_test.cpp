@@ -233,6 +233,30 @@ TEST(GoalsOnMap, WhoStartsInARegionStays) {
   }
 }
 
+TEST(GoalsOnMap, AWayIntoARegionPassesItsStopsFirst) {
+  const Scene scene = scene_of(Bitmap(40, 30));
+  for (const std::vector<double>& start : {std::vector<double>{2.5, 15.5}, std::vector<double>{29.5, 15.5}}) {
+    const Question question{.start = start, .goal = {30.5, 15.5}, .rule = {.region = 3.0}};
+    SolveOptions options = mapped_by(PlannerKind::grid);
+    options.trees.via = {{35.5, 20.5}};
+    const Answer answer = solve(scene, question, options);
+    ASSERT_TRUE(answer.verified);
+    EXPECT_TRUE(std::ranges::any_of(answer.path, [](Vec2 p) { return p == Vec2{35.5, 20.5}; }));
+    EXPECT_NEAR(answer.goal_reached->distance, 3.0, 1e-9);
+  }
+}
+
+TEST(GoalsOnMap, VisitsOfAWorldWithSeveralGoalsAreRefused) {
+  Scene scene = scene_of(Bitmap(20, 20));
+  scene.start = {2.5, 2.5};
+  scene.goal = {18.5, 2.5};
+  scene.other_goals = {{2.5, 18.5}};
+  Question question{.rule = {.visit = {{5.5, 15.5}}}};
+  EXPECT_THROW(solve(scene, question, mapped_by(PlannerKind::prm)), UsageError);
+  question.goal = {2.5, 18.5};
+  EXPECT_TRUE(solve(scene, question, mapped_by(PlannerKind::prm)).verified);
+}
+
 TEST(GoalsOnMap, VisitsAreInTheBestOfAllOrders) {
   for (const std::uint64_t seed : test::seeds(60, 8)) {
     SCOPED_TRACE(seed);

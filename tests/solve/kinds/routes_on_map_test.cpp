@@ -199,6 +199,12 @@ TEST(KeepRoute, TheRestBeginsWhereTheRobotIs) {
   // Of an arm the third joint counts, too, and turns as it is said.
   EXPECT_EQ(rest_of_route({{0, 0, 0}, {0, 0, 4}, {1, 0, 4}}, {0, 0, 2}, 0.0, true, true),
             (States{{0, 0, 2}, {0, 0, 4}, {1, 0, 4}}));
+  // A joint without end goes the shorter way, over half a turn.
+  const std::vector<ArmVariable> endless{{.name = "swivel", .continuous = true}};
+  const States rest = rest_of_route({{2.5}, {-2.5}}, {3.0}, 0.0, true, true, endless);
+  double turned = 0.0;
+  for (std::size_t i = 1; i < rest.size(); ++i) turned += std::abs(turn_between(rest[i - 1][0], rest[i][0]));
+  EXPECT_NEAR(turned, std::abs(turn_between(3.0, -2.5)), 1e-12);
 }
 
 TEST(KeepRoute, ProgressDoesNotJumpToALaterPass) {
@@ -377,6 +383,37 @@ TEST(KeepRoute, OfTurningBodiesKeepsTheirHeading) {
   ASSERT_TRUE(kept.keeping->kept);
   EXPECT_EQ(kept.problem.goal, question.route.keep_to.back());
   EXPECT_EQ(kept.goal_reached->distance, 0.5);
+}
+
+TEST(Solve, APoseOfAToolIsForArmsAndAGoalHasAPlace) {
+  Scene scene;
+  scene.bounds = Box{{0, 0}, {10, 10}};
+  scene.polygons = {{{{4, 4}, {6, 4}, {6, 6}, {4, 6}}}};
+  scene.start = {1, 1};
+  scene.goal = {9, 9};
+  Question question;
+  question.goal_pose = Eigen::Isometry3d(Eigen::Translation3d(3, 3, 0));
+  EXPECT_THROW(solve(scene, question), UsageError);
+  EXPECT_THROW(solve(scene, {.goal = {3.0}, .rule = {.region = 1.0}}), UsageError);
+}
+
+TEST(SolveArm, APoseOfThePumasToolIsLookedForByNumbersAlone) {
+  Scene scene;
+  scene.spheres = {{0.68694, 0.0554304, 0.524197, 0.05}};  // where the tool shall be
+  Question question{.robot = RobotSpec{.kind = RobotKind::puma560, .radius = 0.05}, .start = {-1, 0.5, -1.2, 0, 0, 0}};
+  question.goal_pose = Eigen::Isometry3d(Eigen::Translation3d(0.686940002932, 0.0554303664029, 0.524197184988));
+  question.goal_pose->rotate(
+      Eigen::Quaterniond(0.909283154561, 0.117633594249, 0.0549307918955, 0.395410028246).normalized());
+  for (const double tool : {0.0, 0.0001, 0.1}) {
+    SCOPED_TRACE(tool);
+    question.robot->tool = tool;
+    const Answer answer = solve(scene, question, {.planner = PlannerKind::rrt_connect});
+    EXPECT_NE(answer.outcome, Outcome::solved);
+    if (answer.blocked) EXPECT_EQ(answer.blocked->by.find("outside of what the tool reaches"), std::string::npos);
+    scene.spheres = {{5, 5, 5, 0.1}};
+    EXPECT_TRUE(solve(scene, question, {.planner = PlannerKind::rrt_connect}).verified);
+    scene.spheres = {{0.68694, 0.0554304, 0.524197, 0.05}};
+  }
 }
 
 TEST(KeepRoute, OfArmsEndsAtTheGoalOrWithTheToolThere) {
