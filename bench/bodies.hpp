@@ -12,7 +12,6 @@
 #include "core/base/rng.hpp"
 #include "core/plane/polygon.hpp"
 #include "worlds/arms/arm_world.hpp"
-#include "worlds/arms/puma560.hpp"
 #include "worlds/arms/serial_chain.hpp"
 #include "worlds/poses/car_world.hpp"
 #include "worlds/poses/se2_world.hpp"

@@ -84,7 +84,7 @@ BENCHMARK(plan_cells)
 
 void medial_axis(benchmark::State& state) {
   const PlaneObstacles& obstacles = stars_of(state);
-  for (auto _ : state) benchmark::DoNotOptimize(MedialAxis(obstacles, {}).edges().size());
+  for (auto _ : state) benchmark::DoNotOptimize(MedialAxis(obstacles, {}).edges.size());
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(obstacles.polygons.corners.size()));
 }
 BENCHMARK(medial_axis)->ArgsProduct({{10'000, 100'000}, {0}})->Unit(benchmark::kMillisecond);

@@ -10,7 +10,7 @@
 #include "bench/report.hpp"
 #include "core/plane/geometry.hpp"
 #include "planners/roadmap/connection.hpp"
-#include "planners/roadmap/milestones.hpp"
+#include "planners/roadmap/sampler.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "worlds/plane/maze_world.hpp"
 
@@ -123,7 +123,7 @@ const Cloud& cloud() {
 /// k nearest for k > 0, else the radius that `auto` takes.
 ConnectionRule rule_of(std::int64_t k) {
   if (k > 0) return {0.0, static_cast<std::uint32_t>(k)};
-  return connection_rule(options_of(0), samples_of(0), world().sampled_area());
+  return connection_rule(options_of(0), samples_of(0), world().sampled_volume());
 }
 
 std::vector<Edge> flat(const EdgeParts& parts) {

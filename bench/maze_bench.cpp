@@ -11,8 +11,8 @@
 
 #include "bench/report.hpp"
 #include "scenes/files/npy_io.hpp"
+#include "scenes/files/plane_formats_io.hpp"
 #include "scenes/files/read_world_io.hpp"
-#include "scenes/files/scene_io.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 
 namespace warren::bench {
@@ -47,7 +47,7 @@ void bm_generate(benchmark::State& state) {
   const std::size_t cells = std::size_t{options.rows} * options.cols;
   const MazeCells maze = generate_maze(options, one_thread);
   if (should_check(state))
-    check(interior_walls(maze, {}) == std::uint64_t{options.rows - 1} * (options.cols - 1),
+    check(maze_walls(maze, false, {}).size() == 4 + std::uint64_t{options.rows - 1} * (options.cols - 1),
           "generate_maze: walls of a perfect maze");
   for (auto _ : state) benchmark::DoNotOptimize(generate_maze(options, one_thread).bytes().data());
   report(state, cells, maze.bytes().size());

@@ -105,7 +105,7 @@ void bm_maze_grid(benchmark::State& state) {
 void bm_maze_skeleton(benchmark::State& state) {
   const OccupancyMap& map = maze_of(static_cast<std::uint32_t>(state.range(0)));
   const Ends ends = ends_of(map);
-  const auto find = [&] { return plan_on_skeleton(map.blocked, ends.start, ends.goal, {}, {}); };
+  const auto find = [&] { return plan_on_skeleton({map.blocked, 0.0, {}}, ends.start, ends.goal, {}, {}); };
   if (should_check(state)) {
     check(find().path.size() == plain_bfs(map.blocked, ends.start, ends.goal) + 1,
           "the only way of a maze by its skeleton");

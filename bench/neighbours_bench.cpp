@@ -98,10 +98,9 @@ Index& index_of(std::int64_t kind, std::int64_t side) {
   return *index;
 }
 
-/// Items in all iterations together; bytes a point.
-void count(benchmark::State& state, std::size_t items, std::size_t bytes, std::size_t points) {
+/// Items in all iterations together.
+void count(benchmark::State& state, std::size_t items) {
   state.SetItemsProcessed(static_cast<std::int64_t>(items));
-  state.counters["bytes/item"] = static_cast<double>(bytes) / static_cast<double>(points);
   state.counters["s/item"] =
       benchmark::Counter(static_cast<double>(items), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
@@ -109,13 +108,11 @@ void count(benchmark::State& state, std::size_t items, std::size_t bytes, std::s
 template <class Index>
 void bm_build(benchmark::State& state) {
   const auto& points = points_of(state.range(0), state.range(1));
-  std::size_t bytes = 0;
   for (auto _ : state) {
     Index index = make_index<Index>(points);
-    bytes = index.bytes();
     benchmark::DoNotOptimize(&index);
   }
-  count(state, static_cast<std::size_t>(state.iterations()) * points.size(), bytes, points.size());
+  count(state, static_cast<std::size_t>(state.iterations()) * points.size());
 }
 
 template <class Index>
@@ -137,8 +134,7 @@ void bm_nearest(benchmark::State& state) {
     }
     if (next == points.size()) next = 0;
   }
-  count(state, static_cast<std::size_t>(state.iterations()) * std::min(batch, points.size()), index.bytes(),
-        points.size());
+  count(state, static_cast<std::size_t>(state.iterations()) * std::min(batch, points.size()));
 }
 
 template <class Index>
@@ -160,8 +156,7 @@ void bm_within(benchmark::State& state) {
     }
     if (next == points.size()) next = 0;
   }
-  count(state, static_cast<std::size_t>(state.iterations()) * std::min(batch, points.size()), index.bytes(),
-        points.size());
+  count(state, static_cast<std::size_t>(state.iterations()) * std::min(batch, points.size()));
 }
 
 /// What some points have within the radius and with a larger number.
@@ -197,8 +192,7 @@ void bm_later_pairs(benchmark::State& state) {
     benchmark::DoNotOptimize(found.data());
     next = end == points.size() ? 0 : end;
   }
-  count(state, static_cast<std::size_t>(state.iterations()) * std::min(batch, points.size()), index.bytes(),
-        points.size());
+  count(state, static_cast<std::size_t>(state.iterations()) * std::min(batch, points.size()));
 }
 
 /// A permutation that a stable sort by the numbers of the cells gives.
@@ -218,7 +212,7 @@ void bm_tile_order(benchmark::State& state) {
   const Execution execution{.threads = static_cast<unsigned>(state.range(2))};
   if (should_check(state)) check_tile_order(points, execution);
   for (auto _ : state) benchmark::DoNotOptimize(tile_order(points, execution));
-  count(state, static_cast<std::size_t>(state.iterations()) * points.size(), points.size() * 4, points.size());
+  count(state, static_cast<std::size_t>(state.iterations()) * points.size());
 }
 
 /// A stable sort by key gives the same order.
@@ -239,7 +233,7 @@ void bm_counting_sort(benchmark::State& state) {
   if (should_check(state)) check_counting_sort(key, keys, execution);
   for (auto _ : state)
     benchmark::DoNotOptimize(counting_sort(n, keys, execution, [&](std::size_t i) { return key[i]; }));
-  count(state, static_cast<std::size_t>(state.iterations()) * n, n * 16 + keys * 4, n);
+  count(state, static_cast<std::size_t>(state.iterations()) * n);
 }
 
 BENCHMARK(bm_counting_sort)

@@ -33,7 +33,6 @@ class PlainFlann {
       if (id != except && square <= radius.square()) out.push_back({id, std::sqrt(square)});
     }
   }
-  std::size_t bytes() { return tree_.usedMemory(tree_); }
 
  private:
   struct View {

@@ -10,7 +10,7 @@
 
 #include "core/plane/geometry.hpp"
 #include "planners/visibility/visibility_graph.hpp"
-#include "scenes/files/scene_io.hpp"
+#include "scenes/files/plane_formats_io.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "scenes/scene/polygon_generator.hpp"
 

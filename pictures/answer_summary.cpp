@@ -69,47 +69,31 @@ std::string headline(const Answer& answer, const Palette& palette) {
   }
 }
 
-void line(std::string& text, const Palette& palette, std::string_view name, std::string_view what) {
-  text += fmt::format("  {}{}\n", palette.faint(fmt::format("{:<14}", name)), what);
-}
-
 /// As far as it is, with its unit where that is no cell.
 std::string length_text(const Answer& answer, double length) {
   return human_number(length).append(metres_behind(answer.world.unit));
 }
 
-void add_blocked(std::string& text, const Answer& answer, const BlockedEnd& blocked, const Palette& palette) {
+void add_blocked(AnswerLines& lines, const Answer& answer, const BlockedEnd& blocked) {
   const std::string_view metres = metres_behind(answer.world.unit);
-  if (blocked.depth) line(text, palette, "depth", fmt::format("{:.3g}{} in it", *blocked.depth, metres));
+  if (blocked.depth) lines.add("depth", fmt::format("{:.3g}{} in it", *blocked.depth, metres));
   if (!blocked.free_place.empty()) {
     const std::string_view unit =
         is_arm(answer.problem.robot) && blocked.free_place.size() == answer.problem.start.size() ? " rad" : metres;
-    line(text, palette, "free place",
-         fmt::format("({}), {}{} away", fmt::join(blocked.free_place, ", "), human_number(blocked.distance), unit));
+    lines.add("free place", fmt::format("({}), {}{} away", fmt::join(blocked.free_place, ", "),
+                                        human_number(blocked.distance), unit));
   }
-  if (!blocked.hint.empty()) line(text, palette, "hint", printable(blocked.hint));
+  if (!blocked.hint.empty()) lines.add("hint", printable(blocked.hint));
 }
 
 /// A heading of 90 is as good as any, but hardly meant.
-void add_strange_headings(std::string& text, const Problem& problem, const Palette& palette) {
+void add_strange_headings(AnswerLines& lines, const Problem& problem) {
   constexpr double a_turn_and_a_bit = 6.3;
   if (problem.robot.kind != RobotKind::polygon && problem.robot.kind != RobotKind::car) return;
   for (const std::vector<double>* state : {&problem.start, &problem.goal}) {
     if (state->size() != 3 || std::abs((*state)[2]) <= a_turn_and_a_bit) continue;
-    line(text, palette, "note", fmt::format("a heading of {0} is in radians; degrees are written {0}deg", (*state)[2]));
+    lines.add("note", fmt::format("a heading of {0} is in radians; degrees are written {0}deg", (*state)[2]));
   }
-}
-
-std::string world_text(const WorldAccount& world) {
-  std::string text = world.kind;
-  if (text == "map") return text;  // it has cells
-  if (world.polygons > 0) text += ", " + counted(world.polygons, "polygon", "polygons");
-  const bool solids = world.spheres + world.boxes + world.solids > 0;
-  if (world.walls > 0 || (world.polygons == 0 && !solids)) text += ", " + counted(world.walls, "wall", "walls");
-  if (world.spheres > 0) text += ", " + counted(world.spheres, "sphere", "spheres");
-  if (world.boxes > 0) text += ", " + counted(world.boxes, "box", "boxes");
-  if (world.solids > 0) text += ", " + counted(world.solids, "solid", "solids");
-  return text;
 }
 
 std::string planner_text(const Answer& answer) {
@@ -132,7 +116,7 @@ std::string price_text(const Answer& answer) {
 }
 
 /// What was decided where the question left a choice: of goals, of their order, of ways.
-void add_choice(std::string& text, const Answer& answer, const Palette& palette) {
+void add_choice(AnswerLines& lines, const Answer& answer) {
   std::string goal;
   if (answer.goal_index) {
     goal = fmt::format("number {} of {}", *answer.goal_index + 1, answer.problem.rule.others.size() + 1);
@@ -144,21 +128,21 @@ void add_choice(std::string& text, const Answer& answer, const Palette& palette)
       goal += fmt::format(", of which nothing within {} can be reached", length_text(answer, *reached->distance_bound));
     }
   }
-  if (!goal.empty()) line(text, palette, "goal", goal);
+  if (!goal.empty()) lines.add("goal", goal);
   if (!answer.order.empty()) {
     std::vector<std::uint64_t> from_one;
     for (const std::uint64_t place : answer.order) from_one.push_back(place + 1);
-    line(text, palette, "order", fmt::format("places {}", fmt::join(from_one, ", ")));
+    lines.add("order", fmt::format("places {}", fmt::join(from_one, ", ")));
   }
   if (answer.alternatives.empty()) return;
   std::vector<std::string> costs;
   for (const AlternativePath& other : answer.alternatives) costs.push_back(length_text(answer, other.cost));
-  line(text, palette, "other ways", fmt::format("{}", fmt::join(costs, ", ")));
+  lines.add("other ways", fmt::format("{}", fmt::join(costs, ", ")));
 }
 
-void add_path(std::string& text, const Answer& answer, const Palette& palette) {
-  add_choice(text, answer, palette);
-  std::string length = palette.strong(length_text(answer, answer.length));
+void add_path(AnswerLines& lines, const Answer& answer) {
+  add_choice(lines, answer);
+  std::string length = lines.palette.strong(length_text(answer, answer.length));
   if (answer.raw_length) length += fmt::format(" (before --optimise: {})", length_text(answer, *answer.raw_length));
   const auto gap = gap_of(answer);
   if (answer.optimal && !answer.cost) {
@@ -166,21 +150,20 @@ void add_path(std::string& text, const Answer& answer, const Palette& palette) {
   } else if (gap && !answer.iterations && figure_named(answer.options, "bound") != nullptr) {
     length += fmt::format(" (at most {} % above the shortest)", human_number(100.0 * *gap));
   }
-  line(text, palette, "length", length + fmt::format(", {}", counted(path_points(answer), "point", "points")));
+  lines.add("length", length + fmt::format(", {}", counted(path_points(answer), "point", "points")));
   if (answer.cost) {
     const std::string of_what = answer.price        ? price_text(answer)
                                 : answer.iterations ? "turning counted"
                                                     : "in steps from cell to cell";
-    line(text, palette, "cost",
-         fmt::format("{}, {}{}", human_number(*answer.cost), of_what, answer.optimal ? " (the least there is)" : ""));
+    lines.add("cost", fmt::format("{}, {}{}", human_number(*answer.cost), of_what,
+                                  answer.optimal ? " (the least there is)" : ""));
   }
   if (answer.turn_rad) {
     constexpr double degree = std::numbers::pi / 180.0;
-    line(text, palette, "turning", human_number(*answer.turn_rad / degree) + " degrees");
+    lines.add("turning", human_number(*answer.turn_rad / degree) + " degrees");
   }
-  line(text, palette, "clearance",
-       fmt::format("{} at least; {} asked for", length_text(answer, answer.min_clearance),
-                   length_text(answer, answer.problem.clearance)));
+  lines.add("clearance", fmt::format("{} at least; {} asked for", length_text(answer, answer.min_clearance),
+                                     length_text(answer, answer.problem.clearance)));
 }
 
 std::string end_text(const Answer& answer) {
@@ -198,7 +181,7 @@ std::string end_text(const Answer& answer) {
 }
 
 /// Of planners that get better: how the path came to be, and how far from the best it is at most.
-void add_quality(std::string& text, const Answer& answer, const Palette& palette) {
+void add_quality(AnswerLines& lines, const Answer& answer) {
   if (!answer.iterations) return;
   std::string what = counted(*answer.iterations, "turn", "turns");
   const std::vector<Improvement>& all = answer.improvements;
@@ -207,7 +190,7 @@ void add_quality(std::string& text, const Answer& answer, const Palette& palette
                         counted(all.size() - 1, "step", "steps"));
   }
   const std::string end = end_text(answer);
-  line(text, palette, "better", what + (end.empty() ? "" : "; " + end));
+  lines.add("better", what + (end.empty() ? "" : "; " + end));
   const auto gap = gap_of(answer);
   if (!gap || answer.optimal) return;
   constexpr double near = 0.02;
@@ -215,11 +198,11 @@ void add_quality(std::string& text, const Answer& answer, const Palette& palette
   std::string how_far = fmt::format("at most {} longer than the best", share);
   if (answer.cost) how_far = fmt::format("costs at most {} more than the best", share);
   if (*gap < near) how_far = fmt::format("within {} of the best there is", share);
-  line(text, palette, "bound", fmt::format("{}: {}, proved", human_number(*answer.lower_bound), how_far));
+  lines.add("bound", fmt::format("{}: {}, proved", human_number(*answer.lower_bound), how_far));
 }
 
 /// Of --sampled-edges: how many are wrong, and what the proof took.
-void add_wrong_edges(std::string& text, const Answer& answer, const Palette& palette) {
+void add_wrong_edges(AnswerLines& lines, const Answer& answer) {
   const Figure* edges = figure_named(answer.figures, "wrong_edges");
   const Figure* proof_s = figure_named(answer.figures, "proof_s");
   if (edges == nullptr || proof_s == nullptr) return;
@@ -229,62 +212,58 @@ void add_wrong_edges(std::string& text, const Answer& answer, const Palette& pal
   std::string what =
       fmt::format("{} of {}", wrong.empty() ? "none" : grouped(wrong.size()), grouped(answer.roadmap.edges));
   if (!wrong.empty()) what += fmt::format(" pass through polygons, the deepest by {}", length_text(answer, deepest));
-  line(text, palette, "wrong edges",
-       fmt::format("{}; proved in {}, beside the solving", what, human_seconds(std::get<double>(*proof_s))));
+  lines.add("wrong edges",
+            fmt::format("{}; proved in {}, beside the solving", what, human_seconds(std::get<double>(*proof_s))));
 }
 
-void add_roadmap(std::string& text, const Answer& answer, const Palette& palette) {
+void add_roadmap(AnswerLines& lines, const Answer& answer) {
   if (answer.cells) {
-    line(text, palette, "cells",
-         fmt::format("{}, {}", counted(answer.cells->cells, "cell", "cells"),
-                     counted(answer.cells->adjacencies, "adjacency", "adjacencies")));
+    lines.add("cells", fmt::format("{}, {}", counted(answer.cells->cells, "cell", "cells"),
+                                   counted(answer.cells->adjacencies, "adjacency", "adjacencies")));
   }
   if (answer.roadmap.milestones == 0) return;
   std::string what = fmt::format("{}, {}", counted(answer.roadmap.milestones, "milestone", "milestones"),
                                  counted(answer.roadmap.edges, "edge", "edges"));
   if (answer.roadmap.components > 0) what += ", " + counted(answer.roadmap.components, "component", "components");
-  line(text, palette, "roadmap", what);
-  add_wrong_edges(text, answer, palette);
+  lines.add("roadmap", what);
+  add_wrong_edges(lines, answer);
   const Counters& did = answer.counters;
   std::vector<std::string> work;  // no edges where all are free by their making, no search where trees have met
   if (did.edges_checked > 0) work.push_back(counted(did.edges_checked, "edge", "edges") + " checked");
   if (did.expanded > 0) work.push_back(counted(did.expanded, "place", "places") + " expanded by the search");
   if (did.rounds > 0) work.push_back(counted(did.rounds, "round", "rounds"));
-  if (!work.empty()) line(text, palette, "work", fmt::format("{}", fmt::join(work, ", ")));
+  if (!work.empty()) lines.add("work", fmt::format("{}", fmt::join(work, ", ")));
   if (answer.outcome != Outcome::not_connected || answer.refuted || !answer.separation.is_known()) return;
-  line(
-      text, palette, "start, goal",
-      fmt::format("components of {} and {}, {} apart", counted(answer.separation.start_size, "milestone", "milestones"),
-                  counted(answer.separation.goal_size, "milestone", "milestones"),
-                  length_text(answer, answer.separation.nearest_gap)));
+  lines.add("start, goal", fmt::format("components of {} and {}, {} apart",
+                                       counted(answer.separation.start_size, "milestone", "milestones"),
+                                       counted(answer.separation.goal_size, "milestone", "milestones"),
+                                       length_text(answer, answer.separation.nearest_gap)));
 }
 
 /// The chain of a planner that joins samples, link by link.
-void add_chain(std::string& text, const Answer& answer, const Palette& palette) {
-  const std::vector<StageLine> lines = stage_lines(answer);
-  if (std::none_of(lines.begin(), lines.end(), [](const StageLine& l) { return l.key == "queries"; })) return;
-  line(text, palette, "chain",
-       fmt::format("{:<18} {:>8} {:>8} {:>6} {:>9}  {}", "", "wall", "CPU", "times", "each", "of"));
-  for (const StageLine& l : lines) {
-    line(text, palette, "",
-         fmt::format("{:<18} {:>8} {:>8} {:>6} {:>9}  {}", l.label, human_seconds(l.wall_s), human_seconds(l.cpu_s),
-                     l.wall_s >= 20e-6 ? fmt::format("{:.1f}", l.cpu_s / l.wall_s) : "",
-                     l.count > 0 ? precise_seconds(1e-9 * l.ns_each()) : "",
-                     l.count > 0 ? fmt::format("{} {}", grouped(l.count), l.counted) : ""));
+void add_chain(AnswerLines& lines, const Answer& answer) {
+  const std::vector<StageLine> stages = stage_lines(answer);
+  if (std::none_of(stages.begin(), stages.end(), [](const StageLine& l) { return l.key == "queries"; })) return;
+  lines.add("chain", fmt::format("{:<18} {:>8} {:>8} {:>6} {:>9}  {}", "", "wall", "CPU", "times", "each", "of"));
+  for (const StageLine& l : stages) {
+    lines.add(
+        "", fmt::format("{:<18} {:>8} {:>8} {:>6} {:>9}  {}", l.label, human_seconds(l.wall_s), human_seconds(l.cpu_s),
+                        l.wall_s >= 20e-6 ? fmt::format("{:.1f}", l.cpu_s / l.wall_s) : "",
+                        l.count > 0 ? precise_seconds(1e-9 * l.ns_each()) : "",
+                        l.count > 0 ? fmt::format("{} {}", grouped(l.count), l.counted) : ""));
   }
 }
 
-void add_times(std::string& text, const Answer& answer, const Palette& palette) {
+void add_times(AnswerLines& lines, const Answer& answer) {
   std::string stages;
   for (const auto& [name, seconds] : named_stages(answer.seconds)) {
     if (seconds >= 5e-6) stages += fmt::format("{}{} {}", stages.empty() ? "" : ", ", name, human_seconds(seconds));
   }
-  line(text, palette, "stages", stages);
-  add_chain(text, answer, palette);
-  line(text, palette, "solve",
-       fmt::format("{} on {}, {} at the peak", palette.strong(human_seconds(answer.solve_s)),
-                   counted(answer.threads, "thread", "threads"),
-                   human_bytes(static_cast<double>(answer.peak_memory_bytes))));
+  lines.add("stages", stages);
+  add_chain(lines, answer);
+  lines.add("solve", fmt::format("{} on {}, {} at the peak", lines.palette.strong(human_seconds(answer.solve_s)),
+                                 counted(answer.threads, "thread", "threads"),
+                                 human_bytes(static_cast<double>(answer.peak_memory_bytes))));
 }
 
 }  // namespace
@@ -296,23 +275,23 @@ std::string share_text(double share) {
 }
 
 std::string summary_of(const Answer& answer, const Palette& palette, std::span<const std::string> files_written) {
-  std::string text = fmt::format("{}  {}\n", palette.strong(answer.world.source), headline(answer, palette));
+  AnswerLines lines{palette, fmt::format("{}  {}\n", palette.strong(answer.world.source), headline(answer, palette))};
   if (!answer.world.kind.empty()) {
-    line(text, palette, "world", world_text(answer.world));
-    line(text, palette, "planner", planner_text(answer));
+    const std::string& kind = answer.world.kind;  // a map has cells
+    lines.add("world", kind == "map" ? kind : kind + ", " + contents_text(answer.world));
+    lines.add("planner", planner_text(answer));
   }
-  add_strange_headings(text, answer.problem, palette);
+  add_strange_headings(lines, answer.problem);
   const std::string_view less_memory = what_takes_less_memory(answer);
-  if (!less_memory.empty() && !answer.explained) line(text, palette, "try", less_memory);
-  if (answer.blocked) add_blocked(text, answer, *answer.blocked, palette);
-  if (answer.verified) add_path(text, answer, palette);
-  add_quality(text, answer, palette);
-  if (answer.refuted)
-    line(text, palette, "length", length_text(answer, answer.refuted->length) + ", of the refuted path");
-  add_roadmap(text, answer, palette);
-  add_times(text, answer, palette);
-  for (const std::string& file : files_written) line(text, palette, "wrote", printable(file));
-  return text;
+  if (!less_memory.empty() && !answer.explained) lines.add("try", less_memory);
+  if (answer.blocked) add_blocked(lines, answer, *answer.blocked);
+  if (answer.verified) add_path(lines, answer);
+  add_quality(lines, answer);
+  if (answer.refuted) lines.add("length", length_text(answer, answer.refuted->length) + ", of the refuted path");
+  add_roadmap(lines, answer);
+  add_times(lines, answer);
+  for (const std::string& file : files_written) lines.add("wrote", printable(file));
+  return lines.text;
 }
 
 }  // namespace warren

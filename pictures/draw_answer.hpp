@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a picture shows of an answer: the path, the body along it, and what the planner made on its way. The only place
-// that knows by-products and pictures; `solve`, `render` and `compare` draw by it, and so can any program.
+// What a picture shows of an answer: the path, the body along it, and what the planner made on its way; and of a
+// roadmap that is kept. The only place that knows by-products and pictures; `solve`, `render` and `compare` draw by it,
+// and so can any program.
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,6 +20,7 @@
 #include "solve/answer/answer.hpp"
 #include "solve/answer/by_products.hpp"
 #include "solve/answer/read_answer_io.hpp"
+#include "solve/kept/roadmap.hpp"
 
 namespace warren {
 
@@ -77,6 +81,21 @@ Picture picture_of(const Scene& scene, const Drawing& drawing, const DrawingPage
 std::vector<std::string> write_picture(const std::string& file, const Scene& scene, const Answer& answer,
                                        ByProducts made = {}, const PictureOptions& options = {},
                                        const Execution& execution = {});
+
+// What a picture shows of a roadmap: its vertices, and its edges by what is known of them. Free ones take the colours
+// of their components, unchecked ones are thin and grey, blocked ones thin and red. Cars' edges are the curves that
+// they drive; few states of bodies that turn have arrows. Of an arm: the places of its tool in the three views, and
+// straight lines between them.
+
+/// More edges are no picture but a grey.
+inline constexpr std::uint64_t most_drawn_edges = 900'000;
+
+/// Calls `draw` with the picture of world and roadmap, which lives as long as that call; start and goal are those of
+/// the world. `description` is added to what the picture says of itself; heading_rad: as PictureOptions::heading.
+/// Throws UsageError for more edges than most_drawn_edges; Stopped; what `draw` throws; what it throws for a table of
+/// an arm, reading the roadmap has thrown before.
+void draw_roadmap(const Roadmap& roadmap, const std::string& description, std::optional<double> heading_rad,
+                  const Execution& execution, const std::function<void(const Picture&)>& draw);
 
 // What stands under a picture's title: the world, the body, how it was solved and what came of it. A line each.
 

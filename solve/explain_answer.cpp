@@ -12,6 +12,7 @@
 
 #include "core/base/error.hpp"
 #include "core/plane/geometry.hpp"
+#include "parallel/asked_memory.hpp"
 #include "planners/graph/assemble_graph.hpp"
 #include "solve/explain/blocked_end.hpp"
 #include "solve/kept/roadmap.hpp"
@@ -27,7 +28,10 @@ ComponentFacts facts_of(const Graph& graph, const Execution& execution) {
   const auto vertices = static_cast<VertexId>(graph.vertex_count());
   execution.reserve(vertices * sizeof(std::uint32_t));
   std::vector<std::uint32_t> size(vertices, 0);
-  for (VertexId v = 0; v < vertices; ++v) ++size[parts.label[v]];
+  for (VertexId v = 0; v < vertices; ++v) {
+    execution.poll(v);
+    ++size[parts.label[v]];
+  }
   ComponentFacts facts{.count = parts.count, .milestones = vertices};
   for (const std::uint32_t n : size) {
     facts.largest = std::max<std::uint64_t>(facts.largest, n);
@@ -72,8 +76,13 @@ class PathParts {
   bool in_plane() const { return answer_.states.empty(); }
   std::vector<double> state(std::size_t i) const { return answer_.state(i); }
   double clearance(std::size_t first, std::size_t last) const {
+    constexpr std::size_t bytes_a_state = 128;  // with what is recorded of it
+    execution_.reserve((last - first + 1) * bytes_a_state);
     std::vector<std::vector<double>> states;
-    for (std::size_t i = first; i <= last; ++i) states.push_back(state(i));
+    for (std::size_t i = first; i <= last; ++i) {
+      execution_.poll(i);
+      states.push_back(state(i));
+    }
     return clearance(states);
   }
   double clearance(const std::vector<std::vector<double>>& states) const {
@@ -93,8 +102,9 @@ class PathParts {
     std::vector<Vec2> way;
     double longest = 0.0;  // a car's curve bends away from its chord by no more
     for (std::size_t i = first; i <= last; ++i) {
+      execution_.poll(i);
       const std::vector<double> at = state(i);
-      way.push_back({at[0], at[1]});
+      push_asked(way, {at[0], at[1]}, execution_);
       if (i > first) longest = std::max(longest, distance(way.end()[-2], way.back()));
     }
     const double bend = question_.robot->kind == RobotKind::car ? longest : 0.0;
@@ -332,8 +342,7 @@ class Hints {
 
 std::optional<NarrowPlace> narrowest_place(const Scene& scene, const Question& question, const RecordedAnswer& answer,
                                            double min_clearance, const Execution& execution) {
-  const std::size_t states = std::max(answer.path.size(), answer.states.size());
-  if (states < 2 || !(min_clearance > 0.0) || !std::isfinite(min_clearance)) return std::nullopt;
+  if (answer.state_count() < 2 || !(min_clearance > 0.0) || !std::isfinite(min_clearance)) return std::nullopt;
   PathParts parts(scene, question, answer, min_clearance, execution);
   NarrowPlace narrow{
       .leg = narrowest_leg(parts, min_clearance), .place = {}, .clearance = min_clearance, .one_sample_in = {}};

@@ -17,16 +17,15 @@
 #include "solve/kept/roadmap.hpp"
 #include "solve/kept/roadmap_query.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
-#include "solve/kinds/lower_bound.hpp"
 #include "solve/kinds/plane_steps.hpp"
 #include "solve/kinds/question_of_pose.hpp"
 #include "solve/kinds/solve_steps.hpp"
 #include "solve/kinds/solve_to_goal.hpp"
 #include "solve/question/question_of_arm.hpp"
-#include "verify/judges/effective_scene.hpp"
 #include "verify/judges/verify_bound.hpp"
 #include "verify/judges/verify_classes.hpp"
-#include "worlds/prices/effective_map.hpp"
+#include "verify/judges/verify_price.hpp"
+#include "worlds/prices/map_prices.hpp"
 
 namespace warren {
 namespace {
@@ -38,7 +37,9 @@ Question merged(Question question, const Question& answer) {
   if (question.start.empty()) question.start = answer.start;
   const bool has_goal = !question.goal.empty() || question.goal_pose;
   if (!has_goal && question.rule.empty()) question.rule = answer.rule;
+  const std::optional<double> unknown = question.prices.unknown;
   if (question.prices.empty()) question.prices = answer.prices;
+  if (unknown) question.prices.unknown = unknown;  // which may be no more than that they are blocked
   if (!has_goal) {
     question.goal = answer.goal;
     question.goal_pose = answer.goal_pose;
@@ -101,12 +102,13 @@ void check_price(Verdict& verdict, const Scene& judged, const Prices& prices, co
 /// arcs, a state of it has to be that one; an arm's may have been moved onto a limit. Of the last state: the leg that
 /// would begin there.
 std::optional<PlaceOnPath> passed(const RobotSpec& robot, const ClaimedPath& claimed, const std::vector<double>& place,
-                                  PlaceOnPath from = {}) {
+                                  const Execution& execution, PlaceOnPath from = {}) {
   const double rounding = is_arm(robot) ? 2e-5 : 1e-9;
   if (place.size() == 2 && !is_arm(robot) && robot.kind != RobotKind::car) {
     const Vec2 at{place[0], place[1]};
     const Path<Vec2>& path = claimed.path;
     for (std::size_t k = from.leg; k < path.size(); ++k) {
+      execution.poll(k);
       const Segment leg{path[k], path[std::min(k + 1, path.size() - 1)]};
       if (!(distance(at, leg) <= rounding * (1.0 + norm(at)))) continue;
       const double length = norm(leg.b - leg.a);
@@ -125,6 +127,7 @@ std::optional<PlaceOnPath> passed(const RobotSpec& robot, const ClaimedPath& cla
   };
   if (claimed.state_width() < place.size()) return std::nullopt;
   for (std::size_t k = from.leg + (from.share > rounding ? 1 : 0); k < claimed.state_count(); ++k) {
+    execution.poll(k);
     if (is_there(claimed.state(k))) return PlaceOnPath{k, 0.0};
   }
   return std::nullopt;
@@ -132,26 +135,21 @@ std::optional<PlaceOnPath> passed(const RobotSpec& robot, const ClaimedPath& cla
 
 /// What of the rule, and of the way-points in their order, the path does not do; empty: it does.
 std::string left_undone(const RobotSpec& robot, const GoalRule& rule, std::span<const std::vector<double>> via,
-                        const ClaimedPath& claimed) {
+                        const ClaimedPath& claimed, const Execution& execution) {
   for (std::size_t i = 0; i < rule.visit.size(); ++i) {
-    if (!passed(robot, claimed, rule.visit[i])) return fmt::format("visit: the path passes place {} by", i + 1);
+    if (!passed(robot, claimed, rule.visit[i], execution))
+      return fmt::format("visit: the path passes place {} by", i + 1);
   }
   PlaceOnPath place;
   for (std::size_t i = 0; i < via.size(); ++i) {
-    const std::optional<PlaceOnPath> next = passed(robot, claimed, via[i], place);
+    const std::optional<PlaceOnPath> next = passed(robot, claimed, via[i], execution, place);
     if (!next) return fmt::format("via: the path passes place {} by, or out of its turn", i + 1);
     place = *next;
   }
   if (!rule.back) return {};
   const std::size_t count = claimed.state_count();
-  const bool returns = count > 0 && passed(robot, claimed, claimed.state(0), {count - 1, 0.0});
+  const bool returns = count > 0 && passed(robot, claimed, claimed.state(0), execution, {count - 1, 0.0});
   return returns ? "" : "return: the path does not end where it starts";
-}
-
-void check_stops_passed(Verdict& verdict, const GoalRule& rule, const RecordedAnswer& answer) {
-  if (!verdict.verified) return;
-  std::string undone = left_undone(verdict.problem.robot, rule, answer.via, answer);
-  if (!undone.empty()) refute(verdict, std::move(undone));
 }
 
 void check_length(Verdict& verdict, const RecordedAnswer& answer) {
@@ -304,7 +302,7 @@ std::string take_end(Question& asked, const Question& question, const Scene& sce
 }
 
 /// So is what an answer says of the goal that it reaches, and of the order of places to visit.
-void check_goal_told(Verdict& verdict, const RecordedAnswer& answer) {
+void check_goal_told(Verdict& verdict, const RecordedAnswer& answer, const Execution& execution) {
   if (!verdict.verified || answer.path.empty()) return;
   const GoalRule& rule = answer.problem.rule;
   if (answer.goal_index && *answer.goal_index > rule.others.size()) {
@@ -315,10 +313,10 @@ void check_goal_told(Verdict& verdict, const RecordedAnswer& answer) {
     if (told->asked.size() < 2) return refute(verdict, "goal_reached: `asked` is no place");
     const std::vector<double>& goal = answer.problem.goal;
     const Vec2 end = answer.path.back();
+    const double rounding = 1e-9 * (1.0 + norm(end));
     const double off_end = goal.size() < 2 ? 0.0 : distance(end, Vec2{goal[0], goal[1]});
-    if (off_end > 1e-9 * (1.0 + norm(end))) return refute(verdict, "goal: the path ends elsewhere");
-    const double off = distance(answer.path.back(), Vec2{told->asked[0], told->asked[1]});
-    const double rounding = 1e-9 * (1.0 + norm(answer.path.back()));
+    if (off_end > rounding) return refute(verdict, "goal: the path ends elsewhere");
+    const double off = distance(end, Vec2{told->asked[0], told->asked[1]});
     if (std::abs(off - told->distance) > rounding) {
       return refute(verdict,
                     fmt::format("goal_reached: the answer says {}, its path ends {} off", told->distance, off));
@@ -334,7 +332,7 @@ void check_goal_told(Verdict& verdict, const RecordedAnswer& answer) {
   for (std::size_t i = 0; is_whole && i < sorted.size(); ++i) is_whole = sorted[i] == i;
   PlaceOnPath place;
   for (std::size_t i = 0; is_whole && i < answer.order.size(); ++i) {
-    const auto next = passed(verdict.problem.robot, answer, rule.visit[answer.order[i]], place);
+    const auto next = passed(verdict.problem.robot, answer, rule.visit[answer.order[i]], execution, place);
     is_whole = next.has_value();
     place = next.value_or(place);
   }
@@ -433,23 +431,11 @@ void check_bound(Verdict& verdict, const Scene& scene, const RecordedAnswer& ans
   }
 }
 
-SolveOptions options_of_roadmap(const SolveOptions& options, PlannerKind planner) {
-  SolveOptions kept = options;
-  kept.planner = planner;
-  for (const Option option : question_options.members()) copy_option(option, kept, {});
-  return kept;
-}
-
-/// As many samples as the last round drew, unless nobody has drawn any or they are all the places that there are.
-void take_samples(const Answer& answer, SolveOptions& options) {
-  const auto sampler = enum_named<SamplerKind>(answer.sampler);
-  const bool all_places = sampler && takes_all_places(*sampler);
-  if (answer.roadmap.samples > 0 && !all_places) options.roadmap.samples = answer.roadmap.samples;
-}
-
 Answer kept_and_solved(Scene scene, const Question& question, const SolveOptions& options, const Execution& execution,
                        Roadmap& roadmap, ByProducts* keep) {
-  SolveOptions built_by = options_of_roadmap(options, choose_solver(options, scene, question).planner);
+  SolveOptions built_by = options;
+  built_by.planner = choose_solver(options, scene, question).planner;
+  for (const Option option : question_options.members()) copy_option(option, built_by, {});
   if (const AskedWords words = words_in(rule_of(scene, question)); !words.empty()) {
     throw UsageError(fmt::format("{}: kept roadmaps are asked for one goal; solve takes it without @save_roadmap",
                                  place_of_word(words.members().front(), scene, question)));
@@ -460,7 +446,10 @@ Answer kept_and_solved(Scene scene, const Question& question, const SolveOptions
   if (by_question) {
     solved = solve_within(scene, question, options, execution, keep);
     if (solved.outcome == Outcome::stopped) return solved;
-    take_samples(solved, built_by);
+    // As many samples as the last round drew, unless nobody has drawn any or they are all the places that there are.
+    const auto sampler = enum_named<SamplerKind>(solved.sampler);
+    const bool all_places = sampler && takes_all_places(*sampler);
+    if (solved.roadmap.samples > 0 && !all_places) built_by.roadmap.samples = solved.roadmap.samples;
   }
   BuildAccount account;
   roadmap = build_within(std::move(scene), question, built_by, execution, IndexChoice::where_it_pays, &account);
@@ -520,7 +509,7 @@ Answer solve_within(const Scene& scene, const Question& question, const SolveOpt
     if (answer.world.kind.empty()) answer.world = std::move(world);
     judge_prices(answer, scene, question, has_stops, accounted);
     if (answer.verified) {
-      std::string undone = left_undone(answer.problem.robot, question.rule, options.trees.via, answer);
+      std::string undone = left_undone(answer.problem.robot, question.rule, options.trees.via, answer, {});
       if (!undone.empty()) fail_verification(answer, untrue(std::move(undone)));
     }
     tell_bound(answer, planned, options, accounted);
@@ -544,13 +533,19 @@ Verdict verify_within(const Scene& scene, const Question& question, const Record
   Verdict verdict = verifying_kind(judged, asked).verify(judged, asked, answer, execution);
   if (verdict.verified && !wrong_end.empty()) refute(verdict, std::move(wrong_end));
   check_length(verdict, answer);
-  check_stops_passed(verdict, asked.rule, answer);
-  check_goal_told(verdict, answer);
+  if (verdict.verified) {
+    std::string undone = left_undone(verdict.problem.robot, asked.rule, answer.via, answer, execution);
+    if (!undone.empty()) refute(verdict, std::move(undone));
+  }
+  check_goal_told(verdict, answer, execution);
   check_price(verdict, judged, prices, answer, execution);
   check_alternatives(verdict, judged, asked, prices, answer, execution);
   const bool is_same = !question.robot && question.start.empty() && question.goal.empty() && !question.clearance &&
-                       question.prices.empty() && question.rule.empty();
-  if (is_same) check_bound(verdict, judged, answer, asked.rule.others, execution);
+                       question.prices.empty() && !question.prices.unknown && question.rule.empty();
+  // Whoever asked that unknown cells be blocked where the file opens them is not in the answer: its bound is of that
+  // world.
+  const bool same_cells = answer.problem.prices.opens_unknown() || !scene.prices.opens_unknown();
+  if (is_same && same_cells) check_bound(verdict, judged, answer, asked.rule.others, execution);
   return verdict;
 }
 
@@ -589,10 +584,8 @@ Answer solve(const Scene& scene, const Question& question, const SolveOptions& o
              ByProducts* keep) {
   const LimitedExecution limited(limits);
   Answer answer = solve_explained(scene, question, options, limited.execution(), keep);
-  if (keep == nullptr || answer.outcome == Outcome::stopped) return answer;
-  try {
-    make_by_products(scene, question, options, limited.execution(), *keep);
-  } catch (const Stopped&) {  // the answer came in time
+  if (keep != nullptr && answer.outcome != Outcome::stopped) {  // what stops this leaves the answer, which came in time
+    stopped_by([&] { make_by_products(scene, question, options, limited.execution(), *keep); });
   }
   return answer;
 }

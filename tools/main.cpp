@@ -7,15 +7,11 @@
 #include <unistd.h>
 
 #include <cstddef>
-#include <cstdint>
 #include <cstdlib>
 #include <new>
-#include <string>
-#include <vector>
 
-#include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
-#include "tools/words/command.hpp"
+#include "tools/screen/run_of_verb.hpp"
 #include "tools/words/help.hpp"
 
 namespace warren::tools {

@@ -65,9 +65,8 @@ std::vector<TileSummary> Band::reduce(const OverlayEnds& ends, BandPeeling peeli
   if (is_empty()) return {};
   const auto source = cell_tiles(walls(WallsFor::planner), grid_);
   execution.reserve(tiles().size() * sizeof(TileSummary));
-  std::vector<TileSummary> summaries(tiles().size());
-  LatticeTiles({grid_, *source, source->box(), task_.problem.reach() * (1 + 1e-9)}, ends_, grain)
-      .reduce(tiles(), false, summaries, nullptr, execution);
+  std::vector<TileSummary> summaries = reduce_tiles({grid_, *source, source->box(), task_.problem.reach() * (1 + 1e-9)},
+                                                    ends_, grain, tiles(), false, nullptr, execution);
   if (peeling == BandPeeling::band) peel_band(grid_, own_.first, own_.last, ends_, summaries, execution);
   return summaries;
 }
@@ -83,9 +82,8 @@ std::vector<std::vector<std::uint8_t>> Band::steps_of(std::span<const TileChain>
   std::sort(own.begin(), own.end());
   own.erase(std::unique(own.begin(), own.end()), own.end());
   const auto source = cell_tiles(walls(WallsFor::planner), grid_);
-  std::vector<TileSummary> made(own.size());
-  LatticeTiles({grid_, *source, source->box(), task_.problem.reach() * (1 + 1e-9)}, ends_, grain)
-      .reduce(own, made, execution);
+  const std::vector<TileSummary> made =
+      reduce_tiles({grid_, *source, source->box(), task_.problem.reach() * (1 + 1e-9)}, ends_, grain, own, execution);
   for (std::size_t i = 0; i < chains.size(); ++i) {
     const auto at = std::lower_bound(own.begin(), own.end(), chains[i].tile);
     if (at == own.end() || *at != chains[i].tile) continue;
@@ -98,15 +96,12 @@ std::vector<std::vector<std::uint8_t>> Band::steps_of(std::span<const TileChain>
 NearestWalls Band::judge(std::span<const NearLegs> legs, double reach, const Execution& execution) const {
   NearestWalls nearest{std::numeric_limits<double>::infinity(), std::numeric_limits<std::uint64_t>::max(), 0};
   for (const NearLegs& run : legs) {
-    NearestWalls found =
+    const NearestWalls found =
         nearest_among_cells(walls(WallsFor::judge), tiles(), run.points, task_.judged(), reach, execution);
     nearest.least = std::min(nearest.least, found.least);
     if (found.leg == std::numeric_limits<std::uint64_t>::max()) continue;
-    found.leg += run.first;
-    if (std::tie(found.leg, found.wall) < std::tie(nearest.leg, nearest.wall)) {
-      nearest.leg = found.leg;
-      nearest.wall = found.wall;
-    }
+    std::tie(nearest.leg, nearest.wall) =
+        std::min(std::pair(nearest.leg, nearest.wall), std::pair(found.leg + run.first, found.wall));
   }
   return nearest;
 }

@@ -7,20 +7,14 @@
 #include <chrono>
 #include <csignal>
 #include <iterator>
-#include <span>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "core/base/enum_names.hpp"
 #include "core/base/error.hpp"
-#include "core/base/packed_values.hpp"
 #include "core/base/raw_vector.hpp"
-#include "core/plane/cell_walls.hpp"
 #include "parallel/once.hpp"
 #include "parallel/ticker.hpp"
 #include "planners/mazes/tile_plane.hpp"
-#include "scenes/mazes/spanning_maze.hpp"
 
 namespace warren::distributed {
 namespace {
@@ -116,22 +110,18 @@ class Follower {
         execution_{limits.threads, &deadline_, limits.progress} {}
 
   void run() {
-    while (serve(transport_.receive(0, {.deadline = &waiting_}))) {
+    const Execution waiting{.deadline = &waiting_};
+    for (;;) {
+      const Bytes message = transport_.receive(0, waiting);
+      ValueUnpacker from(message, "rank 0");
+      const auto request = from.take<Request>();
+      if (request == Request::end) return transport_.send_value(0, Reply::ended, waiting);
+      if (execution_.progress != nullptr) execution_.progress->begin(name_of(request).data(), 0);
+      transport_.send(0, answered(request, from), waiting);
     }
-    transport_.send_value(0, Reply::ended, {.deadline = &waiting_});
   }
 
  private:
-  /// Answers one request; false at the end.
-  bool serve(const Bytes& message) {
-    ValueUnpacker from(message, "rank 0");
-    const auto request = from.take<Request>();
-    if (request == Request::end) return false;
-    if (execution_.progress != nullptr) execution_.progress->begin(name_of(request).data(), 0);
-    transport_.send(0, answered(request, from), {.deadline = &waiting_});
-    return true;
-  }
-
   /// The answer, or why there is none. A message that comes meanwhile is the end; of what is short that is found
   /// afterwards.
   Bytes answered(Request request, ValueUnpacker& from) {

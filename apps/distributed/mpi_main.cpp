@@ -8,18 +8,14 @@
 #include <exception>
 #include <limits>
 #include <new>
-#include <string>
-#include <vector>
 
 #include "apps/distributed/mpi_transport.hpp"
-#include "apps/distributed/rank_protocol.hpp"
 #include "apps/distributed/shared_solve.hpp"
 #include "core/base/error.hpp"
-#include "core/run/execution.hpp"
 #include "scenes/text/input_file_io.hpp"
 #include "solve/kept/checksum.hpp"
-#include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
+#include "tools/screen/run_of_verb.hpp"
 #include "tools/words/help.hpp"
 
 namespace warren::distributed {

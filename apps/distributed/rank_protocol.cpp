@@ -3,11 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <optional>
-#include <utility>
-
 #include "core/base/error.hpp"
-#include "tools/screen/exit_code.hpp"
+#include "tools/screen/run_of_verb.hpp"
 
 namespace warren::distributed {
 

@@ -4,27 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
-#include <cstdint>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
 
-#include "apps/distributed/leader_follower.hpp"
-#include "apps/distributed/rank_protocol.hpp"
 #include "apps/distributed/shared_solve.hpp"
 #include "apps/studies/machine.hpp"
 #include "apps/studies/study_report.hpp"
-#include "core/base/enum_names.hpp"
-#include "scenes/mazes/maze_generator.hpp"
-#include "scenes/text/human_units.hpp"
-#include "solve/paths/path_file_io.hpp"
-#include "solve/streamed/solve_streamed.hpp"
-#include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/words/option_values.hpp"
@@ -222,7 +208,7 @@ int lead(const tools::Arguments& arguments, Transport& transport) {
   }
   run.end();
   tools::write_report(arguments, "--json", [&] { return ranks_json(runs, mazes.made, run.threads()); });
-  if (arguments.value("--json") != "-" && !run.quiet()) tools::print_text(ranks_table(runs).text(run.palette()));
+  run.conclude([&] { return ranks_table(runs).text(run.palette()); });
   return tools::exit_code::success;
 }
 

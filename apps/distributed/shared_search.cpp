@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/distributed/shared_search.hpp"
+#include "apps/distributed/leader_follower.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -210,34 +210,26 @@ class RoundsOfBand : public BandRounds {
   }
   HeldBand held() const {
     HeldBand band;
-    const OverlayComponents components(*overlay_, own_, execution_);
-    band.components = components.count();
+    const Components parts = components(*overlay_, own_, execution_);
+    band.components = parts.count;
+    std::map<VertexId, std::uint32_t> numbers;  // of components, by label
+    const auto number_of = [&](VertexId v) {
+      const auto next = static_cast<std::uint32_t>(numbers.size());
+      return numbers.try_emplace(parts.label[v - own_.first], next).first->second;
+    };
     for (const Border border : borders) {
       for (std::uint64_t i = 0; i < crossing_count(border); ++i) {
         const VertexId v = beyond(border, i);
         const std::size_t tile = overlay_->tile_of(v);
         band.cols[border].push_back(seen_.first_col(tile) + place_of(v) % grid_.side());
-        band.component_of[border].push_back(components.root(within(v)));
+        band.component_of[border].push_back(number_of(within(v)));
       }
     }
     const auto links = overlay_->ends(overlay_->goal());
     for (std::size_t i = 0; i < links.size(); ++i) {
-      band.linked[i < start_links_ ? 0 : 1].push_back(components.root(links[i].target));
+      band.linked[i < start_links_ ? 0 : 1].push_back(number_of(links[i].target));
     }
-    std::vector<std::uint32_t> roots;
-    for (const auto* lists : {&band.component_of, &band.linked}) {
-      for (const auto& list : *lists) roots.insert(roots.end(), list.begin(), list.end());
-    }
-    std::sort(roots.begin(), roots.end());
-    roots.erase(std::unique(roots.begin(), roots.end()), roots.end());
-    for (auto* lists : {&band.component_of, &band.linked}) {
-      for (auto& list : *lists) {
-        for (std::uint32_t& root : list) {
-          root = static_cast<std::uint32_t>(std::lower_bound(roots.begin(), roots.end(), root) - roots.begin());
-        }
-      }
-    }
-    band.component_numbers = static_cast<std::uint32_t>(roots.size());
+    band.component_numbers = static_cast<std::uint32_t>(numbers.size());
     return band;
   }
   /// What the others have peeled goes first; then what is gone here since it was last told.

@@ -6,21 +6,14 @@
 #include <exception>
 #include <filesystem>
 #include <limits>
-#include <memory>
-#include <optional>
 #include <system_error>
-#include <utility>
+#include <tuple>
 
-#include "core/base/error.hpp"
 #include "scenes/files/maze_file_io.hpp"
 #include "scenes/files/npy_io.hpp"
 #include "scenes/files/read_world_io.hpp"
-#include "scenes/text/human_units.hpp"
 #include "scenes/text/input_file_io.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
-#include "solve/streamed/solve_streamed.hpp"
-#include "tools/screen/exit_code.hpp"
-#include "tools/screen/run_of_verb.hpp"
 #include "tools/verbs/answer_command.hpp"
 #include "tools/words/option_values.hpp"
 #include "tools/words/question_words.hpp"
@@ -49,10 +42,9 @@ struct SharedQuestion {
     std::string seen;
     const StageTimer timer(execution, "read", seconds);
     try {
-      world = shared_world(source, execution);
-      choose_solver(options, scene(), question);
-      problem = keeping_off(scene(), question, "prm keeps off the walls");
-      seen = world.facts;
+      std::tie(world, seen) = shared_world(source, execution);
+      choose_solver(options, world, question);
+      problem = keeping_off(world, question, "prm keeps off the walls");
     } catch (const Stopped&) {
       throw;
     } catch (const Error& error) {
@@ -63,13 +55,12 @@ struct SharedQuestion {
     if (wrong && transport.rank() == 0) std::rethrow_exception(wrong);
     return is_same && !wrong;
   }
-  const Scene& scene() const { return world.scene; }
-  BandTask task() const { return {scene(), problem}; }
+  BandTask task() const { return {world, problem}; }
 
   std::string source;
   Question question;
   SolveOptions options;
-  SharedWorld world;
+  Scene world;
   WallProblem problem;
 };
 
@@ -87,10 +78,10 @@ class SharedSolve : public tools::AnswerCommand {
     const Execution& execution = run.execution();
     return telling_where_stopped(transport_, *execution.progress, [&] {
       asked_.open(transport_, execution, before.read);
-      check_outputs_of(robot_of(asked_.scene(), asked_.question));
+      check_outputs_of(robot_of(asked_.world, asked_.question));
       const EndOfFollowers end(transport_);
       const std::unique_ptr<Leader> leader = leader_of(transport_, asked_.task(), execution);
-      Answer answer = solve_streamed_within(asked_.scene(), asked_.question, asked_.options, execution,
+      Answer answer = solve_streamed_within(asked_.world, asked_.question, asked_.options, execution,
                                             {.taker = path_taker(), .team = leader.get()});
       answer.figures.push_back({"ranks", std::uint64_t{transport_.ranks()}});
       if (answer.stop_reason) say_where_stopped(transport_, *execution.progress, *answer.stop_reason);
@@ -161,7 +152,7 @@ int follow_as(const tools::Arguments& arguments, Transport& transport,
   return tools::exit_code::success;
 }
 
-SharedWorld shared_world(const std::string& source, const Execution& execution) {
+std::pair<Scene, std::string> shared_world(const std::string& source, const Execution& execution) {
   if (is_maze_source(source)) {
     std::optional<Scene> scene = unmade_maze(source);
     if (!scene) refuse();

@@ -6,11 +6,9 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 
 #include "apps/distributed/leader_follower.hpp"
-#include "apps/distributed/rank_protocol.hpp"
-#include "core/run/execution.hpp"
-#include "scenes/scene/scene.hpp"
 #include "tools/words/command.hpp"
 
 namespace warren::distributed {
@@ -23,15 +21,11 @@ tools::Command shared_scale_command(Transport& transport);
 int follow_as(const tools::Arguments& arguments, Transport& transport,
               const std::function<void(const FollowerLimits&)>& work);
 
-/// The world that ranks share: a maze whose tiles any of them can make, or a file of which each reads its part. Files
-/// of different hosts may have one name and other walls, so the ranks compare what they see before they begin.
-struct SharedWorld {
-  Scene scene;        ///< without its walls (is_unmade)
-  std::string facts;  ///< what all ranks must see of it; of a .maze all its checksums, of a .npy its size and outline
-};
-
-/// Reads what a file says of itself: a .maze's header and checksums, a .npy's header and the four walls of the outline,
-/// no other walls. Throws UsageError for what ranks do not share, InputError, ReadError, Stopped.
-SharedWorld shared_world(const std::string& source, const Execution& execution);
+/// The world that ranks share, without its walls (is_unmade): a maze whose tiles any of them can make, or a file of
+/// which each reads its part. Files of different hosts may have one name and other walls, so the ranks compare before
+/// they begin what they see, which the text tells: of a .maze all its checksums, of a .npy its size and the four walls
+/// of the outline. No other walls are read. Throws UsageError for what ranks do not share, InputError, ReadError,
+/// Stopped.
+std::pair<Scene, std::string> shared_world(const std::string& source, const Execution& execution);
 
 }  // namespace warren::distributed

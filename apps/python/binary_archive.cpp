@@ -2,17 +2,10 @@
 #include "apps/python/bind.hpp"
 
 #include <cstring>
-#include <optional>
-#include <string>
-#include <string_view>
 #include <tuple>
-#include <type_traits>
-#include <utility>
 #include <variant>
-#include <vector>
 
 #include "core/base/error.hpp"
-#include "scenes/scene/scene.hpp"
 
 namespace warren::python {
 namespace py = pybind11;

@@ -136,8 +136,8 @@ const tools::Command& made_once() {
 }
 
 /// What follows an option on a command line: words as they are, numbers with all their digits, sequences apart by
-/// commas, sequences of sequences by semicolons. Throws TypeError.
-std::string word_of(pybind11::handle value, const std::string& keyword);
+/// commas, sequences of sequences by semicolons; depth: of the value in others. Throws TypeError.
+std::string word_of(pybind11::handle value, const std::string& keyword, unsigned depth = 0);
 
 /// The keywords that are not None, nor False where that is a flag left out, after what is there already, such as
 /// operands. Throws TypeError for one that the command has not, UsageError.

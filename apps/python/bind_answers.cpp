@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "apps/python/bind.hpp"
 #include "pictures/answer_summary.hpp"
@@ -12,7 +11,6 @@
 #include "scenes/text/output_file_io.hpp"
 #include "solve/answer/explanation_text.hpp"
 #include "solve/answer/write_answer_io.hpp"
-#include "solve/paths/path_file_io.hpp"
 #include "solve/paths/timed_path.hpp"
 #include "tools/words/question_words.hpp"
 
@@ -114,6 +112,7 @@ std::pair<RawVector<double>, RawVector<double>> places_along(const PathLegs& leg
   RawVector<double> states;
   RawVector<double> along;
   const auto add = [&](std::size_t leg, double share, double at) {
+    execution.poll(along.size());
     const PathState state = legs.at(leg, share);
     states.insert(states.end(), state.used().begin(), state.used().end());
     along.push_back(at);
@@ -123,7 +122,6 @@ std::pair<RawVector<double>, RawVector<double>> places_along(const PathLegs& leg
   for (std::size_t i = 0; i < legs.leg_count(); ++i) {
     const double length = legs.length(i);
     const double parts = std::max(1.0, std::ceil(length / every * (1.0 - 1e-12)));
-    execution.check();
     execution.reserve(static_cast<std::size_t>(std::min(parts, 1e12)) * 64);
     for (double k = 1.0; k <= parts; k += 1.0) add(i, k / parts, before + length * (k / parts));
     before += length;
@@ -139,6 +137,7 @@ std::pair<RawVector<double>, RawVector<double>> places_in_time(const PathLegs& l
   RawVector<double> times;
   for (double k = 0.0;; k += 1.0) {
     const double t = std::min(k * every_s, timed.duration_s());
+    execution.poll(times.size());
     if (times.size() % 4096 == 0) execution.reserve(std::size_t{4096} * 64);
     const PathMoment moment = timed.at(t);
     const PathState state = legs.at(moment.leg, moment.share);

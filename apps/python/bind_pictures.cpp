@@ -4,7 +4,6 @@
 
 #include "apps/python/bind.hpp"
 #include "pictures/draw_answer.hpp"
-#include "pictures/draw_roadmap.hpp"
 #include "pictures/formats/write_picture.hpp"
 #include "scenes/text/output_file_io.hpp"
 #include "solve/answer/world_account.hpp"

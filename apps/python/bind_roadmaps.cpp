@@ -9,8 +9,6 @@
 #include <limits>
 
 #include "apps/python/bind.hpp"
-#include "core/base/error.hpp"
-#include "core/run/execution.hpp"
 #include "core/search/graph.hpp"
 #include "parallel/chunks.hpp"
 #include "solve/explain_answer.hpp"

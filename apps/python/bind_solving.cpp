@@ -4,17 +4,11 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
-#include <array>
-#include <memory>
-#include <utility>
-#include <vector>
 
 #include "apps/python/bind.hpp"
 #include "apps/studies/comparison_report.hpp"
-#include "core/run/execution.hpp"
 #include "scenes/files/npy_io.hpp"
-#include "scenes/files/ros_map_io.hpp"
-#include "scenes/text/input_file_io.hpp"
+#include "scenes/files/plane_formats_io.hpp"
 #include "solve/answer/explanation_text.hpp"
 #include "solve/explain_answer.hpp"
 #include "solve/kinds/kind_of_problem.hpp"

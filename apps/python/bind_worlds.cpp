@@ -9,21 +9,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <limits>
-#include <string_view>
-#include <utility>
 
 #include "apps/python/bind.hpp"
 #include "core/base/error.hpp"
-#include "core/run/execution.hpp"
-#include "scenes/arms/solid_text.hpp"
+#include "scenes/arms/arm_files_io.hpp"
 #include "scenes/files/read_world_io.hpp"
-#include "scenes/mazes/maze_generator.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "scenes/scene/polygon_generator.hpp"
-#include "scenes/scene/scene.hpp"
-#include "scenes/text/input_file_io.hpp"
 #include "solve/answer/world_account.hpp"
 #include "solve/question/planner_choice.hpp"
 #include "tools/screen/world_files.hpp"

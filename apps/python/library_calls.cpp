@@ -6,16 +6,13 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <csignal>
 #include <exception>
 
-#include "core/base/error.hpp"
-#include "scenes/text/human_units.hpp"
 #include "tools/screen/run_of_verb.hpp"
+#include "tools/words/help.hpp"
 #include "tools/words/option_values.hpp"
-#include "tools/words/unknown_words.hpp"
 
 namespace warren::python {
 namespace py = pybind11;
@@ -147,6 +144,25 @@ void add_several(const tools::OptionSpec& spec, const std::string& keyword, py::
   };
   if (!is_several(plain)) return add(plain);
   for (const py::handle item : py::reinterpret_borrow<py::sequence>(plain)) add(item);
+}
+
+// NumPy's arrays.
+
+using Numbers = py::array_t<double, py::array::c_style>;
+
+Numbers converted(py::handle value, const std::string& name, const std::string& shape) {
+  if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) {
+    for (const py::handle row : value) refuse_masked(row, name);
+  }
+  auto numbers = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(value);
+  if (!numbers) {
+    PyErr_Clear();
+    throw py::type_error(fmt::format("{}: expected numbers in rows, {}", name, shape));
+  }
+  if (numbers.ndim() == 0)
+    throw py::type_error(fmt::format("{}: expected numbers in rows, {} (found: one)", name, shape));
+  if (numbers.size() == 0) return Numbers(Shape{0, 2});
+  return Numbers(numbers);
 }
 
 }  // namespace
@@ -284,7 +300,8 @@ tools::Command command_of(std::string_view name, std::initializer_list<std::span
   return {name, "", "", tools::options_but(tools::joined_options(options), without), {}};
 }
 
-std::string word_of(py::handle value, const std::string& keyword) {
+std::string word_of(py::handle value, const std::string& keyword, unsigned depth) {
+  constexpr unsigned deepest = 8;  // a list may hold itself
   if (py::isinstance<py::str>(value)) {
     Py_ssize_t size = 0;
     const char* const text = PyUnicode_AsUTF8AndSize(value.ptr(), &size);
@@ -301,12 +318,12 @@ std::string word_of(py::handle value, const std::string& keyword) {
   if (py::hasattr(value, "tolist")) {
     const py::object plain = value.attr("tolist")();
     if (py::hasattr(plain, "tolist")) refuse_type(keyword, "a word, a number or numbers", value);
-    return word_of(plain, keyword);
+    return word_of(plain, keyword, depth);
   }
-  if (PySequence_Check(value.ptr()) != 0) {
+  if (PySequence_Check(value.ptr()) != 0 && depth < deepest) {
     std::string words;
     for (const py::handle item : py::reinterpret_borrow<py::sequence>(value)) {
-      words.append(words.empty() ? "" : is_list(item) ? ";" : ",").append(word_of(item, keyword));
+      words.append(words.empty() ? "" : is_list(item) ? ";" : ",").append(word_of(item, keyword, depth + 1));
     }
     return words;
   }
@@ -362,4 +379,51 @@ py::list keyword_table(const tools::Command& command) {
   return table;
 }
 
+std::string kind_of(const py::array& array) {
+  return py::str(array.dtype()).cast<std::string>() + " " +
+         py::str(py::reinterpret_borrow<py::object>(array).attr("shape")).cast<std::string>();
+}
+
+void refuse_masked(py::handle value, const std::string& name) {
+  if (!py::hasattr(value, "mask")) return;
+  if (!py::module_::import("numpy").attr("ma").attr("is_masked")(value).cast<bool>()) return;
+  throw py::type_error(name + ": a mask hides some of it, and nothing says what is there; give it filled()");
+}
+
+bool is_whole(py::handle value) {
+  if (!py::isinstance<py::array>(value)) return false;
+  const char kind = py::reinterpret_borrow<py::array>(value).dtype().kind();
+  return kind == 'i' || kind == 'u';
+}
+
+NumberRows rows_of(py::handle value, const std::string& name, std::initializer_list<std::size_t> columns) {
+  const std::string shape = fmt::format("(n, {})", fmt::join(columns.begin(), columns.end(), ") or (n, "));
+  refuse_masked(value, name);
+  if (!py::isinstance<py::array>(value) || is_whole(value)) {
+    Numbers numbers = converted(value, name, shape);
+    if (numbers.shape(0) == 0) return {numbers, numbers.data(), 0, *columns.begin()};
+    return rows_of(numbers, name, columns);
+  }
+  const auto array = py::reinterpret_borrow<py::array>(value);
+  const bool fits = array.ndim() == 2 && std::find(columns.begin(), columns.end(), array.shape(1)) != columns.end();
+  if (!fits || !py::isinstance<Numbers>(value)) {
+    const bool strided = fits && array.dtype().is(py::dtype::of<double>());
+    throw py::type_error(fmt::format("{}: expected float64 {} in C order (found: {}{})", name, shape, kind_of(array),
+                                     strided ? ", not in C order" : ""));
+  }
+  Numbers numbers = py::reinterpret_borrow<Numbers>(value);
+  return {numbers, numbers.data(), static_cast<std::size_t>(array.shape(0)), static_cast<std::size_t>(array.shape(1))};
+}
+
 }  // namespace warren::python
+
+PYBIND11_MODULE(_core, module) {
+  using namespace warren::python;
+  module.attr("__version__") = WARREN_VERSION;
+  translate_errors();
+  bind_worlds(module);
+  bind_answers(module);
+  bind_pictures(module);
+  bind_solving(module);
+  bind_roadmaps(module);
+}

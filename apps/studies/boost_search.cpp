@@ -45,6 +45,7 @@ struct Watch {
   BoostVertex goal;
   const Execution* execution;
   std::uint64_t* settled;
+  std::vector<BoostVertex>* parent;
   void settle(BoostVertex v) const {
     ++*settled;
     if (v == goal) throw Reached();
@@ -52,28 +53,19 @@ struct Watch {
   }
 };
 
+/// Searches that take a map of predecessors don't tell tree_edge.
 template <class Base>
-struct Settling : Base {
-  explicit Settling(Watch w) : watch(w) {}
+struct Visitor : Base {
+  explicit Visitor(Watch w) : watch(w) {}
   void examine_vertex(BoostVertex v, const BoostGraph&) const { watch.settle(v); }
-  Watch watch;
-};
-using AStarVisitor = Settling<boost::default_astar_visitor>;
-using DijkstraVisitor = Settling<boost::default_dijkstra_visitor>;
-
-/// For searches that take no map of predecessors.
-template <class Base>
-struct NotingParents : Settling<Base> {
-  NotingParents(Watch w, std::vector<BoostVertex>& p) : Settling<Base>(w), parent(&p) {}
   template <class BoostEdge>
   void tree_edge(const BoostEdge& e, const BoostGraph& graph) const {
-    (*parent)[target(e, graph)] = source(e, graph);
+    (*watch.parent)[target(e, graph)] = source(e, graph);
   }
-  std::vector<BoostVertex>* parent;
+  Watch watch;
 };
-using BreadthVisitor = NotingParents<boost::default_bfs_visitor>;
-struct DepthVisitor : NotingParents<boost::default_dfs_visitor> {
-  using NotingParents::NotingParents;
+struct DepthVisitor : Visitor<boost::default_dfs_visitor> {
+  using Visitor::Visitor;
   void discover_vertex(BoostVertex v, const BoostGraph&) const { watch.settle(v); }
 };
 
@@ -91,7 +83,7 @@ class BoostSearch {
   SearchResult operator()(const Execution& execution) {
     SearchResult result;
     try {
-      search({from_.goal, &execution, &result.expanded});
+      search({from_.goal, &execution, &result.expanded, &parent_});
     } catch (const Reached&) {
       result.status = SearchStatus::found;
       result.path = path();
@@ -117,14 +109,16 @@ class BoostSearch {
     switch (search_) {
       case SearchKind::bfs:
         return boost::breadth_first_search(graph_, from_.start,
-                                           boost::visitor(BreadthVisitor(watch, parent_)).color_map(map(color_)));
+                                           maps.visitor(Visitor<boost::default_bfs_visitor>(watch)));
       case SearchKind::dfs:
         std::fill(color_.begin(), color_.end(), boost::white_color);
-        return boost::depth_first_visit(graph_, from_.start, DepthVisitor(watch, parent_), map(color_));
+        return boost::depth_first_visit(graph_, from_.start, DepthVisitor(watch), map(color_));
       case SearchKind::dijkstra:
-        return boost::dijkstra_shortest_paths(graph_, from_.start, maps.visitor(DijkstraVisitor(watch)));
+        return boost::dijkstra_shortest_paths(graph_, from_.start,
+                                              maps.visitor(Visitor<boost::default_dijkstra_visitor>(watch)));
       case SearchKind::astar:
-        return boost::astar_search(graph_, from_.start, to_goal, maps.rank_map(map(f_)).visitor(AStarVisitor(watch)));
+        return boost::astar_search(graph_, from_.start, to_goal,
+                                   maps.rank_map(map(f_)).visitor(Visitor<boost::default_astar_visitor>(watch)));
     }
   }
 

@@ -52,10 +52,8 @@ std::vector<std::string> name_parts(const Contender& c, bool with_planner) {
     return parts;
   }
   if (c.library != "warren") return {c.search, c.library};
-  std::vector<std::string> parts;
-  for (const std::string& part : {with_planner ? c.planner : "", c.search, c.queue}) {
-    if (!part.empty()) parts.push_back(part);
-  }
+  std::vector<std::string> parts{with_planner ? c.planner : "", c.search, c.queue};
+  std::erase(parts, "");
   if (with_planner) std::ranges::copy(option_parts(c), std::back_inserter(parts));
   return parts;
 }
@@ -126,11 +124,9 @@ std::optional<double> number_in_word(std::string_view word) {
 }
 
 std::string contender_name(const Contender& contender, bool with_planner) {
-  std::string name = with_planner ? contender.planner : "";
-  for (const std::string& part : {contender.search, contender.queue}) {
-    if (!part.empty()) name += (name.empty() ? "" : ", ") + part;
-  }
-  return name;
+  std::vector<std::string> parts{with_planner ? contender.planner : "", contender.search, contender.queue};
+  std::erase(parts, "");
+  return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 std::string options_text(const Contender& contender) {

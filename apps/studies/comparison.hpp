@@ -12,8 +12,7 @@
 
 #include "apps/studies/statistics.hpp"
 #include "core/base/solution.hpp"
-#include "core/base/types.hpp"
-#include "solve/question/figure.hpp"
+#include "solve/answer/answer.hpp"
 
 namespace warren::studies {
 

@@ -8,10 +8,8 @@
 #include <iterator>
 #include <limits>
 #include <map>
-#include <utility>
 
 #include "apps/studies/comparison_report.hpp"
-#include "apps/studies/statistics.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/question/solve_options.hpp"
 
@@ -515,13 +513,11 @@ std::vector<PlotSheet> comparison_panels(const Comparison& comparison) {
   std::vector<PlotSheet> panels = get_better ? curve_panels(comparison) : std::vector<PlotSheet>();
   const auto add = [&](std::vector<PlotSheet> more) { std::ranges::move(more, std::back_inserter(panels)); };
   add(list_panels(comparison));
-  if (get_better) {
-    add(box_panels(comparison));
-    return panels;
-  }
-  const std::vector<SweepCurve> sizes = sweep_curves(comparison);
+  const std::vector<SweepCurve> sizes = get_better ? std::vector<SweepCurve>() : sweep_curves(comparison);
+  std::vector<Plot> plots;
+  if (!get_better) plots = sizes.empty() ? share_plots(comparison) : sweep_plots(sizes);
   const bool is_alone = panels.empty();
-  for (const Plot& plot : sizes.empty() ? share_plots(comparison) : sweep_plots(sizes)) {
+  for (const Plot& plot : plots) {
     const bool fits = !sizes.empty() || is_alone || plot.series.size() <= colors::series.size();
     if (fits) panels.push_back(sheet_of(plot));
   }

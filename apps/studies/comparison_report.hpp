@@ -12,7 +12,6 @@
 #include "apps/studies/comparison.hpp"
 #include "apps/studies/study_report.hpp"
 #include "pictures/plots/plot.hpp"
-#include "scenes/text/human_units.hpp"
 
 namespace warren::studies {
 

@@ -5,17 +5,14 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cmath>
-#include <cstdint>
 #include <filesystem>
 #include <iterator>
 #include <limits>
 #include <map>
 #include <set>
 #include <system_error>
-#include <utility>
 
 #include "core/base/error.hpp"
 #include "core/plane/geometry.hpp"
@@ -201,11 +198,6 @@ class SharedLegs {
   std::vector<PolygonSet> shown_;
 };
 
-struct NamedPath {
-  std::string label;         ///< in the legend
-  std::vector<Vec2> points;  ///< arcs as chords
-};
-
 /// Returns what is drawn otherwise than usual, a line each that begins with the name.
 std::vector<std::string> write_named(const std::string& folder, const std::string& name, const Picture& picture,
                                      const PictureOptions& look, const Execution& execution) {
@@ -214,20 +206,19 @@ std::vector<std::string> write_named(const std::string& folder, const std::strin
   return notes;
 }
 
-/// The same of one figure of several paths, each in a colour of its own. A map's scene has its border walls.
+/// The same of one figure of several paths, each in a colour of its own with its label in the legend, arcs as chords. A
+/// map's scene has its border walls.
 std::vector<std::string> draw_paths(const std::string& folder, const std::string& name, Picture picture,
-                                    const std::vector<NamedPath>& paths, const PictureOptions& look,
-                                    const Execution& execution) {
+                                    const std::vector<std::string>& labels, std::span<const std::vector<Vec2>> paths,
+                                    const PictureOptions& look, const Execution& execution) {
   std::vector<PictureLayer> layers;
   if (picture.scene.map) layers = cells_of_map(*picture.scene.map, execution);
-  std::vector<std::vector<Vec2>> points;
-  for (const NamedPath& path : paths) points.push_back(path.points);
-  const double extent = extent_of(points);
+  const double extent = extent_of(paths);
   const double dash = extent > 0.0 ? extent / 60.0 : 1.0;  // some sixty across all that is drawn
-  std::vector<PolygonSet> lines = lines_side_by_side(points, dash, execution);
+  std::vector<PolygonSet> lines = lines_side_by_side(paths, dash, execution);
   for (std::size_t i = 0; i < lines.size(); ++i) {
     layers.push_back({.id = fmt::format("path_{}", i + 1),
-                      .label = paths[i].label,
+                      .label = labels[i],
                       .part = Part::path,
                       .color = colors::series[i % colors::series.size()],
                       .width = 0.8 * widths::path,
@@ -271,8 +262,8 @@ class ContestPictures {
     write(unused(file_name(contender.planner + " " + said)), title, picture_of(scene_, drawing));
     if (drawing.path.size() > 1) {  // an arm's is in joint space
       const std::string label = said.empty() ? contender.planner : contender.planner + ", " + said;
-      paths_.push_back({fmt::format("{}: length {}", label, human_number(run != nullptr ? run->length : 0.0)),
-                        without_arcs(drawing.path, drawing.path_turns)});
+      labels_.push_back(fmt::format("{}: length {}", label, human_number(run != nullptr ? run->length : 0.0)));
+      paths_.push_back(without_arcs(drawing.path, drawing.path_turns));
       overview_.start = drawing.start;
       overview_.goal = drawing.goal;
     }
@@ -286,7 +277,7 @@ class ContestPictures {
   std::vector<std::string> finish() {
     if (paths_.size() > 1) {
       overview_.subtitle = fmt::format("{}\nof each planner the path of median length", description_of(scene_));
-      keep(draw_paths(folder_, unused("paths") + ".svg", overview_, paths_, look_, execution_));
+      keep(draw_paths(folder_, unused("paths") + ".svg", overview_, labels_, paths_, look_, execution_));
     }
     return std::move(notes_);
   }
@@ -310,7 +301,8 @@ class ContestPictures {
   const PictureOptions& look_;
   const Execution& execution_;
   std::set<std::string> names_;
-  std::vector<NamedPath> paths_;
+  std::vector<std::string> labels_;
+  std::vector<std::vector<Vec2>> paths_;
   Picture overview_{.scene = scene_};
   std::vector<std::string> notes_;
 };
@@ -409,13 +401,14 @@ std::vector<std::string> draw_searches(const Scene& world, const SearchGraph& gr
                                           counted(graph.graph.vertex_count(), "vertex", "vertices"),
                                           counted(graph.graph.edge_count(), "edge", "edges"))};
   const std::vector<FoundPath> all = found_paths(graph, options, execution);
-  std::vector<NamedPath> paths;
-  for (const FoundPath& found : all) {
-    NamedPath& path = paths.emplace_back(NamedPath{label_of(found, all, graph), {}});
-    for (const VertexId v : found.path) path.points.push_back(graph.at[v]);
+  std::vector<std::string> labels;
+  std::vector<std::vector<Vec2>> paths(all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    labels.push_back(label_of(all[i], all, graph));
+    for (const VertexId v : all[i].path) paths[i].push_back(graph.at[v]);
   }
   if (all.empty()) picture.subtitle += "; no search found a path";
-  return draw_paths(folder, "searches.svg", picture, paths, look, execution);
+  return draw_paths(folder, "searches.svg", picture, labels, paths, look, execution);
 }
 
 }  // namespace warren::studies

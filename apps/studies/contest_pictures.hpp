@@ -9,14 +9,10 @@
 #include <string_view>
 #include <vector>
 
-#include "apps/studies/comparison.hpp"
 #include "apps/studies/planner_contest.hpp"
 #include "apps/studies/search_contest.hpp"
-#include "core/base/types.hpp"
 #include "core/plane/polygon.hpp"
-#include "core/run/execution.hpp"
 #include "pictures/model/picture_options.hpp"
-#include "scenes/scene/scene.hpp"
 
 namespace warren::studies {
 

@@ -5,15 +5,12 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <numbers>
 
 #include "core/base/error.hpp"
 #include "parallel/asked_memory.hpp"
-#include "scenes/mazes/maze_generator.hpp"
-#include "solve/answer/answer.hpp"
 
 namespace warren::studies {
 namespace {
@@ -268,11 +265,6 @@ class LargestSearch {
   double bytes_a_cell_ = 0.0;  // of the last run that came to its end
 };
 
-std::uint32_t doubled(std::uint32_t side, std::uint32_t most) {
-  const double next = std::ceil(side * std::numbers::sqrt2);
-  return next < most ? static_cast<std::uint32_t>(next) : most;
-}
-
 using Json = nlohmann::ordered_json;
 
 void line(std::string& text, const Palette& palette, std::string_view name, const std::string& what) {
@@ -399,7 +391,9 @@ std::uint32_t largest_side(const SizeSearch& search, const std::function<bool(st
   const auto ask = [&](std::uint32_t side) { (fits(side) ? fitting : too_large) = side; };
   ask(search.start);
   if (fitting > 0) {
-    while (fitting < search.most && too_large == 0) ask(doubled(fitting, search.most));
+    while (fitting < search.most && too_large == 0) {
+      ask(static_cast<std::uint32_t>(std::min<double>(search.most, std::ceil(fitting * std::numbers::sqrt2))));
+    }
   } else {
     while (too_large > search.least && fitting == 0) {
       ask(std::max(search.least, static_cast<std::uint32_t>(too_large / std::numbers::sqrt2)));

@@ -14,9 +14,7 @@
 #include "apps/studies/maze_trial.hpp"
 #include "core/base/solution.hpp"
 #include "core/base/types.hpp"
-#include "core/run/execution.hpp"
 #include "pictures/plots/plot.hpp"
-#include "scenes/scene/scene.hpp"
 #include "scenes/text/human_units.hpp"
 
 namespace warren::studies {

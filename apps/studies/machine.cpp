@@ -12,6 +12,7 @@
 #include <cerrno>
 #include <chrono>
 #include <fstream>
+#include <numeric>
 #include <system_error>
 
 #include "core/base/page_pool.hpp"
@@ -91,7 +92,8 @@ double seconds_of(const timeval& time) {
 constexpr std::size_t probe_parts = 64;
 constexpr std::uint64_t rounds = 120'000;  // of each part: some 150 us
 
-/// One number that doesn't wait for the others. Opaque to the compiler, which would put several into one register.
+/// One number that doesn't wait for the others. Opaque to the compiler, which would put several into one register, or
+/// leave the work out.
 inline void step(std::uint64_t round, std::uint64_t& x) {
   x ^= round;
   x += x;
@@ -99,7 +101,7 @@ inline void step(std::uint64_t round, std::uint64_t& x) {
 }
 
 /// Numbers enough to keep all units for whole numbers of a core busy.
-std::uint64_t run_part(std::uint64_t seed) {
+void run_part(std::uint64_t seed) {
   std::uint64_t a = seed, b = seed + 1, c = seed + 2, d = seed + 3;
   std::uint64_t e = seed + 4, f = seed + 5, g = seed + 6, h = seed + 7;
   for (std::uint64_t round = 0; round < rounds; ++round) {
@@ -112,7 +114,6 @@ std::uint64_t run_part(std::uint64_t seed) {
     step(round, g);
     step(round, h);
   }
-  return a ^ b ^ c ^ d ^ e ^ f ^ g ^ h;
 }
 
 }  // namespace
@@ -151,12 +152,10 @@ void touch_memory(std::size_t bytes, MemoryTouch& so_far, const Execution& execu
 
 RunCounts operator-(const RunCounts& after, const RunCounts& before) {
   RunCounts between{after.cpu_s - before.cpu_s, after.page_faults - before.page_faults,
-                    after.involuntary_switches - before.involuntary_switches};
-  for (std::size_t i = 0; i < after.hardware.size(); ++i) {
-    const bool is_known = after.hardware[i] && i < before.hardware.size();
+                    after.involuntary_switches - before.involuntary_switches, after.hardware};
+  for (std::size_t i = 0; i < std::min(before.hardware.size(), between.hardware.size()); ++i) {
     // An event that had no counter at first has counted nothing then.
-    between.hardware.push_back(is_known ? std::optional(*after.hardware[i] - before.hardware[i].value_or(0.0))
-                                        : std::nullopt);
+    if (between.hardware[i]) *between.hardware[i] -= before.hardware[i].value_or(0.0);
   }
   return between;
 }
@@ -207,22 +206,15 @@ RunCounts RunCounters::read() const {
 double arithmetic_per_second(const Execution& execution) {
   Execution own = execution.quiet();
   own.trace = nullptr;
-  struct Part {
-    std::uint64_t result = 0;
-    double seconds = 0.0;
-  };
-  std::vector<Part> done(probe_parts);
+  std::vector<double> done(probe_parts);
   const auto run = [&](Range r) {
     const auto begin = std::chrono::steady_clock::now();
-    const std::uint64_t result = run_part(r.first);
-    done[r.first] = {result, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()};
+    run_part(r.first);
+    done[r.first] = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   };
   for_chunks(probe_parts / 8, 1, own, run);  // wakes threads that sleep
   for_chunks(probe_parts, 1, own, run);
-  double seconds = 0.0;
-  for (const Part& part : done) seconds += part.seconds;
-  const volatile std::uint64_t read = done.back().result;  // or the work would be left out
-  static_cast<void>(read);
+  const double seconds = std::accumulate(done.begin(), done.end(), 0.0);
   const auto threads = static_cast<double>(std::min<std::size_t>(thread_count(own.threads), probe_parts));
   return threads * static_cast<double>(probe_parts * rounds) / seconds;
 }

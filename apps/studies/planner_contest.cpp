@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <string_view>
 
 #include "core/base/error.hpp"
@@ -31,7 +30,7 @@ std::optional<std::uint64_t> cells_of(const Answer& answer, const Scene& scene,
   if (scene.map) return cells_passed(answer.path, *scene.map);
   if (!scene.grid && !raster) return std::nullopt;
   const Box box = scene.bounds ? *scene.bounds : obstacle_box(scene);
-  return cells_passed(answer.path, Raster{box.min, grid_spec(raster.value_or(GridFields{}), scene).cell});
+  return cells_passed(answer.path, box.min, grid_spec(raster.value_or(GridFields{}), scene).cell);
 }
 
 /// Trees settle no vertices in a search; they grow them.
@@ -302,9 +301,7 @@ std::vector<PlannerContender> without_strange_options(std::vector<PlannerContend
 
 bool depends_on_seed(const Answer& answer, const SolveOptions& options, const Scene& scene) {
   const auto planner = enum_named<PlannerKind>(answer.planner);
-  if (!planner || is_tree_planner(*planner) || gets_better(*planner)) {
-    return true;
-  }
+  if (!planner || is_tree_planner(*planner) || gets_better(*planner)) return true;
   if (is_roadmap_planner(*planner)) {
     const auto sampler = enum_named<SamplerKind>(answer.sampler);
     if (!sampler || !takes_all_places(*sampler)) return true;
@@ -347,15 +344,13 @@ std::vector<PlannerContender> deal_planners(const PlannerDeal& deal) {
   return all;
 }
 
-std::uint64_t cells_passed(std::span<const Vec2> path, const Raster& raster) {
+std::uint64_t cells_passed(std::span<const Vec2> path, Vec2 origin, double cell) {
   if (path.empty()) return 0;
-  const auto index = [&](double at, double from) {
-    return static_cast<std::int64_t>(std::llround((at - from) / raster.cell));
-  };
+  const auto index = [&](double at, double from) { return std::int64_t{std::llround((at - from) / cell)}; };
   std::int64_t steps = 0;
   for (std::size_t i = 1; i < path.size(); ++i) {
-    const std::int64_t dx = index(path[i].x, raster.origin.x) - index(path[i - 1].x, raster.origin.x);
-    const std::int64_t dy = index(path[i].y, raster.origin.y) - index(path[i - 1].y, raster.origin.y);
+    const std::int64_t dx = index(path[i].x, origin.x) - index(path[i - 1].x, origin.x);
+    const std::int64_t dy = index(path[i].y, origin.y) - index(path[i - 1].y, origin.y);
     steps += std::max(std::abs(dx), std::abs(dy));
   }
   return static_cast<std::uint64_t>(steps) + 1;
@@ -364,7 +359,7 @@ std::uint64_t cells_passed(std::span<const Vec2> path, const Raster& raster) {
 std::uint64_t cells_passed(std::span<const Vec2> path, const OccupancyMap& map) {
   std::vector<Vec2> in_cells;
   for (const Vec2 p : path) in_cells.push_back(map_point(map, p));
-  return cells_passed(in_cells, Raster{{0.5, 0.5}, 1.0});
+  return cells_passed(in_cells, {0.5, 0.5}, 1.0);
 }
 
 }  // namespace warren::studies

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "apps/studies/comparison.hpp"
-#include "core/base/types.hpp"
 #include "core/run/execution.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/answer/answer.hpp"
@@ -83,16 +82,10 @@ Answer solve_contender(const Scene& scene, const PlannerContender& contender, st
 void run_planner_contest(const Scene& scene, const PlannerContestOptions& options, const Execution& execution,
                          Comparison& comparison);
 
-/// Where a raster's cell (0, 0) has its middle, and how far apart middles are.
-struct Raster {
-  Vec2 origin;
-  double cell = 1.0;
-};
-
-/// How many cells of a raster a path passes, as course reports count a path's length. Ends of legs are rounded to
-/// cells; a leg takes as many steps as its longer side has cells, diagonal ones count as one; and the first cell. A
-/// path of one cell passes one, an empty path none.
-std::uint64_t cells_passed(std::span<const Vec2> path, const Raster& raster);
+/// How many cells of a raster a path passes, as course reports count a path's length: cell (0, 0) has its middle at the
+/// origin, the next one's is a cell away. Ends of legs are rounded to cells; a leg takes as many steps as its longer
+/// side has cells, diagonal ones count as one; and the first cell. A path of one cell passes one, an empty path none.
+std::uint64_t cells_passed(std::span<const Vec2> path, Vec2 origin, double cell);
 
 /// The same on a map's own cells.
 std::uint64_t cells_passed(std::span<const Vec2> path, const OccupancyMap& map);

@@ -13,7 +13,6 @@
 
 #include "apps/studies/study_report.hpp"
 #include "pictures/plots/plot.hpp"
-#include "solve/answer/answer.hpp"
 
 namespace warren::studies {
 namespace {

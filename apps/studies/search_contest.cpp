@@ -48,19 +48,25 @@ RawVector<Edge> edges_within(const std::vector<Vec2>& at, const SearchRadius& ra
 }
 
 /// Label of the component with the most vertices; of equal ones the least.
-VertexId largest_component(const Components& components) {
+VertexId largest_component(const Components& components, const Execution& execution) {
   std::vector<std::uint32_t> sizes(components.label.size(), 0);
-  for (const VertexId label : components.label) ++sizes[label];
+  for (VertexId v = 0; v < sizes.size(); ++v) {
+    execution.poll(v);
+    ++sizes[components.label[v]];
+  }
   VertexId largest = 0;
   for (VertexId v = 0; v < sizes.size(); ++v) {
+    execution.poll(v);
     if (sizes[v] > sizes[largest]) largest = v;
   }
   return largest;
 }
 
-VertexId nearest_in(const std::vector<Vec2>& at, const Components& components, VertexId label, Vec2 place) {
+VertexId nearest_in(const std::vector<Vec2>& at, const Components& components, VertexId label, Vec2 place,
+                    const Execution& execution) {
   VertexId nearest = label;
   for (VertexId v = 0; v < at.size(); ++v) {
+    execution.poll(v);
     if (components.label[v] == label && distance(at[v], place) < distance(at[nearest], place)) nearest = v;
   }
   return nearest;
@@ -68,13 +74,14 @@ VertexId nearest_in(const std::vector<Vec2>& at, const Components& components, V
 
 /// A* (with the straight distance as heuristic) or Dijkstra. An array that is sorted at each push can take a second for
 /// the expansions between two looks at the deadline, so there it is looked at more often.
-template <class Queue, bool Informed>
-GraphSearch best_first_on(const SearchGraph& from) {
+template <class Queue>
+GraphSearch best_first_on(const SearchGraph& from, SearchKind kind) {
   Queue empty;
   SearchState fresh;
   empty.resize(from.graph.vertex_count());
   fresh.resize(from.graph.vertex_count());
-  return [&from, queue = std::move(empty), state = std::move(fresh)](const Execution& execution) mutable {
+  return [&from, is_informed = kind == SearchKind::astar, queue = std::move(empty),
+          state = std::move(fresh)](const Execution& execution) mutable {
     constexpr std::uint64_t expansions_per_look = 64;
     [[maybe_unused]] std::uint64_t expansions = 0;
     const auto neighbours = [&](VertexId v, const auto& visit) {
@@ -86,7 +93,7 @@ GraphSearch best_first_on(const SearchGraph& from) {
       for (std::size_t i = 0; i < row.size(); ++i) visit(row[i], lengths[i]);
     };
     const Vec2 goal = from.at[from.goal];
-    const auto to_goal = [&](VertexId v) { return Informed ? distance(from.at[v], goal) : 0.0; };
+    const auto to_goal = [&](VertexId v) { return is_informed ? distance(from.at[v], goal) : 0.0; };
     queue.clear();
     state.clear();
     try {
@@ -98,11 +105,6 @@ GraphSearch best_first_on(const SearchGraph& from) {
       return stopped;
     }
   };
-}
-
-template <class Queue>
-GraphSearch best_first_with(const SearchGraph& graph, SearchKind search) {
-  return search == SearchKind::astar ? best_first_on<Queue, true>(graph) : best_first_on<Queue, false>(graph);
 }
 
 using Clock = std::chrono::steady_clock;
@@ -146,7 +148,11 @@ class SearchContest {
     comparison_.problems.push_back(
         {graph_.source, graph_.kind, graph_.graph.vertex_count(), graph_.graph.edge_count(), graph_.unit});
     first_contender_ = comparison_.contenders.size();
+    constexpr std::size_t bytes_a_vertex = 40;  // of what a search remembers, and its queue
+    constexpr std::size_t bytes_an_end = 28;    // of Boost's copy of the graph
     for (const SearchVariant& v : options_.variants) {
+      const std::size_t copied = v.library == SearchLibrary::boost ? 2 * graph_.graph.edge_count() : 0;
+      execution_.reserve(bytes_a_vertex * graph_.graph.vertex_count() + bytes_an_end * copied);
       entrants_.push_back({v, graph_search(graph_, v), {}, 0});
       comparison_.contenders.push_back({.problem = comparison_.problems.size() - 1,
                                         .planner = graph_.kind,
@@ -198,11 +204,11 @@ class SearchContest {
   }
   std::uint64_t trials_for(const ComparedRun& first) const {
     constexpr double seconds_each = 0.25;  // when nobody says how many trials
-    constexpr std::uint64_t fewest_trials = 5;
-    constexpr std::uint64_t most_trials = 10'000;
+    constexpr double fewest_trials = 5.0;
+    constexpr double most_trials = 10'000.0;
     if (options_.trials) return *options_.trials;
     const double fitting = std::ceil(seconds_each / std::max(first.time_s, 1e-9));
-    return std::clamp(static_cast<std::uint64_t>(std::min(fitting, 1e9)), fewest_trials, most_trials);
+    return static_cast<std::uint64_t>(std::clamp(fitting, fewest_trials, most_trials));
   }
   void measure() {
     std::uint64_t rounds = 0;
@@ -258,10 +264,8 @@ std::optional<std::string> contradiction_between(const SearchClaim& a, const Sea
   };
   if (a.found != b.found) return say("a path is found", a.found, b.found);
   if (!a.found) return std::nullopt;
-  const bool a_is_best = has_queue(a.variant.search);
-  const bool b_is_best = has_queue(b.variant.search);
-  if (a_is_best && b_is_best && differ(a.length, b.length)) return say("lengths", a.length, b.length);
-  if (a_is_best && b.length < a.length && differ(a.length, b.length)) return say("lengths", a.length, b.length);
+  const bool is_longer = differ(a.length, b.length) && (has_queue(b.variant.search) || b.length < a.length);
+  if (has_queue(a.variant.search) && is_longer) return say("lengths", a.length, b.length);
   if (a.variant.search == SearchKind::bfs && b.hops < a.hops) return say("hops", a.hops, b.hops);
   const bool both_ours = a.variant.library == SearchLibrary::warren && b.variant.library == SearchLibrary::warren;
   if (both_ours && a.variant.search == b.variant.search) {
@@ -306,10 +310,10 @@ SearchGraph geometric_graph(std::uint32_t size, double degree, std::uint64_t see
   const auto length = [&](VertexId v, VertexId w) { return distance(made.at[v], made.at[w]); };
   made.graph = with_lengths(assemble_graph(size, edges, execution), execution, length);
   const Components parts = components(made.graph, execution);
-  const VertexId largest = largest_component(parts);
+  const VertexId largest = largest_component(parts, execution);
   const double side = std::sqrt(static_cast<double>(size));
-  made.start = nearest_in(made.at, parts, largest, {0.0, 0.0});
-  made.goal = nearest_in(made.at, parts, largest, {side, side});
+  made.start = nearest_in(made.at, parts, largest, {0.0, 0.0}, execution);
+  made.goal = nearest_in(made.at, parts, largest, {side, side}, execution);
   return made;
 }
 
@@ -327,11 +331,11 @@ GraphSearch graph_search(const SearchGraph& graph, const SearchVariant& variant)
     };
   }
   const QueuePolicy queue = variant.queue.value_or(QueuePolicy::heap);
-  if (queue == QueuePolicy::lazy_heap) return best_first_with<LazyHeap>(graph, variant.search);
-  if (queue == QueuePolicy::sorted_array) return best_first_with<SortedArray>(graph, variant.search);
-  if (queue == QueuePolicy::resorted_array) return best_first_with<ResortedArray>(graph, variant.search);
-  if (queue == QueuePolicy::linear_scan) return best_first_with<LinearScan>(graph, variant.search);
-  return best_first_with<IndexedHeap<4>>(graph, variant.search);
+  if (queue == QueuePolicy::lazy_heap) return best_first_on<LazyHeap>(graph, variant.search);
+  if (queue == QueuePolicy::sorted_array) return best_first_on<SortedArray>(graph, variant.search);
+  if (queue == QueuePolicy::resorted_array) return best_first_on<ResortedArray>(graph, variant.search);
+  if (queue == QueuePolicy::linear_scan) return best_first_on<LinearScan>(graph, variant.search);
+  return best_first_on<IndexedHeap<4>>(graph, variant.search);
 }
 
 double path_length(const SearchGraph& graph, std::span<const VertexId> path) {
@@ -372,11 +376,6 @@ void run_size_sweep(const SizeSweepOptions& options, const Execution& execution,
       if (!contest.trials) drop_slow_variants(contest.variants, first, size, comparison);
     }
   }
-}
-
-PlannerKind usual_graph_planner(const Scene& scene, const Question& question, const SolveOptions& options) {
-  const PlannerKind usual = choose_solver(options, scene, question).planner;
-  return usual == PlannerKind::lazy_prm ? PlannerKind::prm : usual;
 }
 
 WorldGraph world_graph(const Scene& scene, const Question& question, const SolveOptions& options,

@@ -19,8 +19,6 @@
 
 #include "apps/studies/comparison.hpp"
 #include "core/base/enum_names.hpp"
-#include "core/base/solution.hpp"
-#include "core/base/types.hpp"
 #include "core/run/execution.hpp"
 #include "core/search/graph.hpp"
 #include "core/search/search.hpp"
@@ -128,10 +126,6 @@ void run_size_sweep(const SizeSweepOptions& options, const Execution& execution,
                     const std::function<void(std::string_view)>& say);
 
 // The graph of a world, for searches to be compared on: what a planner of `solve` would search, with its options.
-
-/// The planner whose graph is searched where none is asked for: the one that `solve` would take, prm for lazy-prm.
-/// Throws UsageError where no planner solves this world.
-PlannerKind usual_graph_planner(const Scene& scene, const Question& question, const SolveOptions& options);
 
 struct WorldGraph {
   SearchGraph graph;                  ///< empty unless built

@@ -23,18 +23,14 @@ std::vector<std::size_t> widths_of(const TextTable& table) {
   return widths;
 }
 
-TextTable without_empty_columns(const TextTable& whole) {
-  const std::vector<std::size_t> widths = widths_of(whole);
-  const auto kept = [&](const std::vector<std::string>& cells) {
-    std::vector<std::string> left;
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      if (widths[i] > 0) left.push_back(cells[i]);
-    }
-    return left;
-  };
-  const auto empty_words = std::count(widths.begin(), widths.begin() + static_cast<std::ptrdiff_t>(whole.words), 0U);
-  TextTable table{kept(whole.head), whole.words - static_cast<std::size_t>(empty_words), whole.title};
-  for (const auto& row : whole.rows) table.rows.push_back(kept(row));
+TextTable without_empty_columns(TextTable table) {
+  const std::vector<std::size_t> widths = widths_of(table);
+  for (std::size_t i = widths.size(); i-- > 0;) {
+    if (widths[i] > 0) continue;
+    table.head.erase(table.head.begin() + static_cast<std::ptrdiff_t>(i));
+    for (auto& row : table.rows) row.erase(row.begin() + static_cast<std::ptrdiff_t>(i));
+    table.words -= i < table.words ? 1 : 0;
+  }
   return table;
 }
 

@@ -74,7 +74,7 @@ class JointStates {
  public:
   using State = JointState;
   JointStates(const ArmWorld& world, const JointState& rest) : rest_(rest) {
-    for (std::size_t j = 0; j < world.variable_count(); ++j) {
+    for (std::size_t j = 0; j < world.unit_dimension(); ++j) {
       if (world.kinematics().moves(j)) joints_.push_back(j);
     }
   }

@@ -135,7 +135,9 @@ int main(int argc, char** argv) {
   const RouteIndex index(std::move(*passages), {}, execution);
   phases.end("whole");
   const double cells = static_cast<double>(index.passages().cell_count());
-  std::printf("%.3f bytes a cell:\n", static_cast<double>(index.bytes()) / cells);
+  std::size_t bytes = 0;
+  for (const RouteSection& s : route_sections(index)) bytes += s.bytes.size();
+  std::printf("%.3f bytes a cell:\n", static_cast<double>(bytes) / cells);
   for (const RouteSection& s : route_sections(index)) {
     std::printf("  %-15.*s %.4f\n", static_cast<int>(s.name.size()), s.name.data(),
                 static_cast<double>(s.bytes.size()) / cells);

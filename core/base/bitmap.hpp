@@ -27,11 +27,10 @@ class Bitmap {
   static constexpr std::uint32_t word_bits = 64;  ///< of each word of a row
 
   Bitmap() = default;
-  /// All bits `value`. Fewer than 2^32 bits in all.
-  Bitmap(std::uint32_t width, std::uint32_t height, bool value = false) : Bitmap(width, height, value, NoPoll{}) {}
-  /// The same, with calls of poll() on the way: the first touch of gigabytes takes seconds.
-  template <class Poll>
-  Bitmap(std::uint32_t width, std::uint32_t height, bool value, const Poll& poll)
+  /// All bits `value`, with calls of poll() on the way: the first touch of gigabytes takes seconds. Fewer than 2^32
+  /// bits in all.
+  template <class Poll = NoPoll>
+  Bitmap(std::uint32_t width, std::uint32_t height, bool value = false, const Poll& poll = {})
       : width_(width), height_(height), stride_(words_a_row(width)) {
     assign_polled(words_, stride_ * height, value ? ~std::uint64_t{0} : 0, poll);
     if (value) clear_beyond_width();

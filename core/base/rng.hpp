@@ -36,11 +36,10 @@ class SequentialRng {
     state_ += 0x9e3779b97f4a7c15U;
     return mix64(state_);
   }
-  /// A number in [0, n), n >= 1 and n <= 2^32; bias below n / 2^64 (multiply-shift on 64 bits).
+  /// A number in [0, n), n >= 1; bias below n / 2^64 (multiply-shift on 64 bits).
   constexpr std::uint64_t below(std::uint64_t n) {
-    const std::uint64_t bits = next();
-    const std::uint64_t low = (bits & 0xffffffffU) * n;
-    return ((bits >> 32) * n + (low >> 32)) >> 32;
+    __extension__ using Wide = unsigned __int128;
+    return static_cast<std::uint64_t>(static_cast<Wide>(next()) * n >> 64);
   }
 
  private:

@@ -67,6 +67,7 @@ struct Box {
   }
   /// Each side moved outwards by so much.
   constexpr Box grown(double by) const { return {{min.x - by, min.y - by}, {max.x + by, max.y + by}}; }
+  friend constexpr bool operator==(const Box&, const Box&) = default;
 };
 
 /// The box of a segment.

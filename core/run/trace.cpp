@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/run/trace.hpp"
 
-#include <algorithm>
 #include <string_view>
 
 namespace warren {

@@ -5,7 +5,7 @@
 // straight line or the world's metric (estimated_way() in planners/graph/roadmap_options.hpp); from 50,000 vertices on
 // both ends search (planners/graph/roadmap_search.cpp). Maps take a BucketQueue and heuristics of their own
 // (planners/grid). Loops of their own have cars on grids (ARA*, planners/grid/motion_lattice.hpp), fields of prices
-// (price_field there), classes of paths (path_classes), overlays of mazes (planners/mazes/overlay_search), polyanya
+// (price_field there), classes of paths (path_classes), overlays of mazes (planners/mazes/overlay), polyanya
 // (planners/vertical_cells), discs' paths (planners/visibility), redrive (planners/shorten) and the judge's bounds.
 //
 // A graph is any callable neighbours(v, visit) that calls visit(w, length) for each neighbour in ascending order; a
@@ -110,10 +110,6 @@ class SearchState {
       }
     }
     return vertices;
-  }
-  std::size_t bytes() const {
-    return g_.size() * (sizeof(double) + sizeof(VertexId)) + is_touched_.size() +
-           touched_blocks_.capacity() * sizeof(VertexId);
   }
 
  private:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What SVG and HTML are made of: text of unknown origin, colours, images; and how every page begins (page_io.cpp).
+// What SVG and HTML are made of: text of unknown origin, colours, images; and how every page begins. All of it is in
+// page/page_io.cpp.
 #pragma once
 
 #include <span>

@@ -12,6 +12,7 @@
 
 #include "pictures/model/picture.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
+#include "scenes/text/output_file_io.hpp"
 
 namespace warren {
 namespace {
@@ -352,7 +353,7 @@ class Painter {
     segments("scale", page_.ink, {.stroke = colors::text, .width = 1.4});
     if (!page_.legend.empty()) {
       surface_.begin_group("legend", "", {});
-      for (const PlacedLegend& placed : page_.legend) swatch(placed);
+      for (const LegendEntry& entry : page_.legend) swatch(entry);
       surface_.end_group();
     }
     surface_.begin_group("words", "", {.fill = colors::text});
@@ -362,9 +363,8 @@ class Painter {
     surface_.end_group();
   }
 
-  void swatch(const PlacedLegend& placed) {
-    const LegendEntry& entry = placed.entry;
-    const Vec2 at = placed.at;
+  void swatch(const LegendEntry& entry) {
+    const Vec2 at = entry.at;
     const Vec2 middle{at.x + 0.5 * swatch_width, at.y};
     if (entry.mark) {
       surface_.take_pen({.fill = entry.fill});
@@ -406,6 +406,33 @@ class Painter {
 std::vector<std::string> paint(const Picture& picture, Parts parts, const Page& page, Surface& surface,
                                const Execution& execution) {
   return Painter(picture, parts, page, surface, execution).paint();
+}
+
+std::string ending_of(const std::string& file) {
+  const std::size_t dot = file.rfind('.');
+  if (dot == std::string::npos || file.find('/', dot) != std::string::npos) return {};
+  std::string ending = file.substr(dot);
+  for (char& c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return ending;
+}
+
+bool is_picture(std::string_view ending) {
+  return !ending.empty() && fmt::format(" {} ", picture_endings).find(fmt::format(" {} ", ending)) != std::string::npos;
+}
+
+std::vector<std::string> write_picture(const std::string& file, const Picture& picture, const PictureOptions& options,
+                                       const Execution& execution) {
+  options.validate();
+  const std::string ending = ending_of(file);
+  decltype(write_svg)* writer = write_svg;
+  if (ending == ".png") writer = write_png;
+  if (ending == ".pdf") writer = write_pdf;
+  if (ending == ".html") writer = write_html;
+  OutputFile output(file, execution);
+  std::vector<std::string> notes =
+      writer(picture, options, execution, [&](std::string_view bytes) { output.write(bytes); });
+  output.commit();
+  return notes;
 }
 
 }  // namespace warren

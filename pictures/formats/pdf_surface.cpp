@@ -142,7 +142,7 @@ class PdfSurface : public Surface {
     draw_image(ink, page_.data);
     check();
   }
-  double image_density() const override { return density_of_images; }
+  double image_density() const override { return 3.0; }  // some 300 pixels an inch
   void image(const Image& image, const Box& at) override {
     const HPDF_Image pixels =
         HPDF_LoadRawImageFromMem(document_.get(), image.row(0), static_cast<HPDF_UINT>(image.width()),
@@ -152,7 +152,6 @@ class PdfSurface : public Surface {
   }
 
  private:
-  static constexpr double density_of_images = 3.0;  // some 300 pixels an inch
   void draw_image(HPDF_Image image, const Box& at) {
     HPDF_Page_DrawImage(sheet_, image, real(points_a_pixel * at.min.x),
                         real(points_a_pixel * (page_.height - at.max.y)), real(points_a_pixel * at.width()),
@@ -196,13 +195,8 @@ class PdfSurface : public Surface {
   void paint_path() {
     if (path_steps_ == 0) return;
     path_steps_ = 0;
-    if (pen_.fill && (pen_.stroke || pen_.crisp)) {
-      HPDF_Page_FillStroke(sheet_);
-    } else if (pen_.fill) {
-      HPDF_Page_Fill(sheet_);
-    } else {
-      HPDF_Page_Stroke(sheet_);
-    }
+    const bool has_lines = pen_.stroke || pen_.crisp;
+    (!pen_.fill ? HPDF_Page_Stroke : has_lines ? HPDF_Page_FillStroke : HPDF_Page_Fill)(sheet_);
   }
   void piece_ended() {
     constexpr std::size_t most_steps = 10'000;

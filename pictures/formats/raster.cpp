@@ -88,7 +88,6 @@ void cover_inside(const PolygonSet& outlines, std::size_t columns, std::size_t a
                   const Cover& cover) {
   execution.check();
   const Box box = box_around(outlines.corners);
-  if (box.empty()) return;
   const double top = std::clamp(std::floor(box.min.y), 0.0, static_cast<double>(all_rows));
   const double bottom = std::clamp(std::ceil(box.max.y), 0.0, static_cast<double>(all_rows));
   if (!(top < bottom)) return;
@@ -214,7 +213,7 @@ class PngSurface : public Surface {
       : page_(page),
         execution_(execution),
         density_(page.density()),
-        image_(pixels(page.width), pixels(page.height), colors::paper, execution) {}
+        image_(pixels(page.width), pixels(page.height), execution) {}
 
   const Image& image() const { return image_; }
 
@@ -302,16 +301,13 @@ class PngSurface : public Surface {
 
 }  // namespace
 
-Image::Image(std::size_t width, std::size_t height, Rgb paper, const Execution& execution)
-    : width_(width), height_(height) {
+Image::Image(std::size_t width, std::size_t height, const Execution& execution) : width_(width), height_(height) {
+  static_assert(colors::paper == Rgb{255, 255, 255});
   execution.reserve(3 * width * height);
   pixels_.resize(3 * width * height);
-  constexpr std::size_t pixels_per_poll = std::size_t{1} << 18;
-  for (std::size_t i = 0; i < width * height; ++i) {
-    if (i % pixels_per_poll == 0) execution.check();
-    pixels_[3 * i] = paper.red;
-    pixels_[3 * i + 1] = paper.green;
-    pixels_[3 * i + 2] = paper.blue;
+  for (std::size_t y = 0; y < height; ++y) {
+    if (y % 64 == 0) execution.check();
+    std::fill_n(row(y), 3 * width, std::uint8_t{255});
   }
 }
 

@@ -32,7 +32,8 @@ inline std::size_t pixel_at(double place, std::size_t most) {
 /// Row 0 is the top row; 3 bytes a pixel.
 class Image {
  public:
-  Image(std::size_t width, std::size_t height, Rgb paper, const Execution& execution);
+  /// All paper.
+  Image(std::size_t width, std::size_t height, const Execution& execution);
 
   std::size_t width() const { return width_; }
   std::size_t height() const { return height_; }

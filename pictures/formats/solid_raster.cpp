@@ -72,7 +72,7 @@ class SolidRaster {
       if (i % solids_a_poll == 0) execution_.check();
       mark(i);
     }
-    Image image(columns_ / samples_a_side, rows_ / samples_a_side, colors::paper, execution_);
+    Image image(columns_ / samples_a_side, rows_ / samples_a_side, execution_);
     for (std::size_t y = 0; y < image.height(); ++y) {
       execution_.check();
       for (std::size_t x = 0; x < image.width(); ++x) resolve(x, y, image.row(y) + 3 * x);
@@ -328,15 +328,10 @@ Vec3 normal_at(const Vec3& p, const SeenSolid& s) {
   if (s.radius < 0.0) {
     const Vec3 half = 0.5 * (s.b - s.a);
     const Vec3 off = p - 0.5 * (s.a + s.b);
+    Vec3 shares;
+    for (int k = 0; k < 3; ++k) shares[k] = half[k] > 0.0 ? std::abs(off[k]) / half[k] : 1.0;
     int face = 0;
-    double best = -1.0;
-    for (int k = 0; k < 3; ++k) {
-      const double share = half[k] > 0.0 ? std::abs(off[k]) / half[k] : 1.0;
-      if (share > best) {
-        best = share;
-        face = k;
-      }
-    }
+    shares.maxCoeff(&face);  // the first of equal ones
     Vec3 normal = Vec3::Zero();
     normal[face] = off[face] < 0.0 ? -1.0 : 1.0;
     return normal;

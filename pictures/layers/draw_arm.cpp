@@ -21,7 +21,7 @@
 #include "parallel/asked_memory.hpp"
 #include "pictures/model/axis.hpp"
 #include "worlds/arms/arm_kinematics.hpp"
-#include "worlds/rasters/convex_pieces.hpp"
+#include "worlds/rasters/lattice_polygons.hpp"
 
 namespace warren {
 namespace {
@@ -309,9 +309,8 @@ class ArmDrawing {
     views.stage.source = scene_.source;
     for (const Projection& view : views_) add_obstacles(view, views.stage);
     const PictureLayer start = arm_at("start", path, path.states().front(), colors::start);
-    if (path.states().size() == 1) {
-      views.layers = {start};
-    } else {
+    views.layers = {start};
+    if (path.states().size() > 1) {
       views.layers = {sweep(path), start, arm_at("goal", path, path.states().back(), colors::goal), trace(path)};
     }
     views.solids = solids_of(obstacles_, perspective_, low_, high_, execution_);
@@ -453,7 +452,6 @@ class ArmDrawing {
                        .part = Part::body,
                        .color = color,
                        .width = widths::edge,
-                       .closed = true,
                        .fill = mixed(color, colors::paper, 45),
                        .opacity = 0.7};
     add_outlines(layer, path.bodies(q));

@@ -62,7 +62,6 @@ class BodyDrawing {
                           .part = Part::body,
                           .color = colors::wall,
                           .width = 0.0,
-                          .closed = true,
                           .fill = colors::wall};
       for (const Se2& pose : bends) add_front(fronts, pose);
       add_front(fronts, poses_.front());
@@ -132,7 +131,6 @@ class BodyDrawing {
                        .part = Part::body,
                        .color = color,
                        .width = 1.4 * widths::edge,
-                       .closed = true,
                        .fill = mixed(color, colors::paper, 35),
                        .opacity = 0.75};
     for (const Se2& pose : poses) add_body(layer, pose);

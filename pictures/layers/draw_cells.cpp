@@ -11,6 +11,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/plane/se2.hpp"
 #include "scenes/text/human_units.hpp"
 #include "spatial/maps/distance_field.hpp"
 
@@ -52,7 +53,6 @@ PictureLayer layer_of_areas(std::string id, std::string label, double opacity) {
           .part = Part::world,
           .color = mixed(colors::search_tree, colors::text, 70),
           .width = widths::outline,
-          .closed = true,
           .fill = colors::search_tree,
           .opacity = opacity,
           .blocks = false};
@@ -92,12 +92,8 @@ void add_mask(std::vector<PictureLayer>& layers, const PriceMask& mask, double d
       dearest[step] = std::max(dearest[step], factor);
     }
   }
-  const double c = std::cos(cells.yaw_rad);
-  const double s = std::sin(cells.yaw_rad);
-  const auto at = [&](Vec2 p) {
-    const Vec2 q = cells.cell * p;
-    return cells.origin + Vec2{c * q.x - s * q.y, s * q.x + c * q.y};
-  };
+  const Rotation turned(cells.yaw_rad);
+  const auto at = [&](Vec2 p) { return cells.origin + turned(cells.cell * p); };
   for (std::size_t step = 0; step <= steps; ++step) {
     if (bits[step].count() == 0) continue;
     const bool is_forbidden = step == steps;
@@ -144,12 +140,8 @@ std::vector<PictureLayer> layers_of_places(const Prices& prices, const Execution
 
 PictureLayer cells_layer(std::string id, std::string label, const Bitmap& cells, const std::function<Vec2(Vec2)>& at,
                          const Execution& execution) {
-  PictureLayer layer{.id = std::move(id),
-                     .label = std::move(label),
-                     .part = Part::world,
-                     .width = 0.0,
-                     .closed = true,
-                     .fill = colors::blocked_cell};
+  PictureLayer layer{
+      .id = std::move(id), .label = std::move(label), .part = Part::world, .width = 0.0, .fill = colors::blocked_cell};
   std::map<CellRun, std::uint32_t> open;  // runs of the rows before, and the row where each began
   const auto close = [&](const CellRun& run, std::uint32_t first, std::uint32_t last) {
     const Vec2 low{static_cast<double>(run.first), static_cast<double>(first)};

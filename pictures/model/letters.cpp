@@ -21,7 +21,6 @@ constexpr double units = 1024.0;
 /// Reads the numbers of a glyph.
 struct GlyphReader {
   std::string_view digits;
-  bool ended() const { return digits.empty(); }
   int number() {
     constexpr int small = 40;
     const int first = digit();
@@ -57,7 +56,7 @@ std::vector<CurveContour> contours_of(std::size_t number) {
   GlyphReader reader = glyph(number);
   reader.number();  // its advance
   const auto step = [&] { return static_cast<double>(GlyphReader::step(reader.number())); };
-  while (!reader.ended()) {
+  while (!reader.digits.empty()) {
     CurveContour contour(static_cast<std::size_t>(reader.number()));
     Vec2 at;
     for (CurvePoint& p : contour) {

@@ -84,6 +84,81 @@ void add_scale_bar(Page& page, Vec2 at, std::string_view unit) {
            fmt::format("{}{}{}", tick_text(step, step), unit.empty() ? "" : " ", one ? "cell" : unit));
 }
 
+void add_world_entries(std::vector<LegendEntry>& entries, const Picture& picture) {
+  const Scene& scene = picture.scene;
+  if (!scene.polygons.empty()) {
+    entries.push_back({.label = scene.polygons.size() == 1 ? "obstacle" : "obstacles",
+                       .lines = {colors::outline},
+                       .width = widths::outline,
+                       .fill = colors::polygon});
+  }
+  // A map's walls are the borders of its cells.
+  if (scene.walls.size() > 0) {
+    const bool borders = scene.map.has_value();
+    entries.push_back(
+        {.label = borders ? "border of blocked cells" : "wall", .lines = {colors::wall}, .width = widths::wall});
+  } else if (scene.bounds && picture.panels.empty()) {
+    entries.push_back({.label = "bounds", .lines = {colors::wall}, .width = widths::wall});
+  }
+}
+
+void add_roadmap_entries(std::vector<LegendEntry>& entries, const PlannedRoadmap<Vec2>& roadmap, Parts parts,
+                         const Execution& execution) {
+  if (parts.has(Part::roadmap) && !roadmap.states.empty()) {
+    const std::size_t edges = roadmap.graph.edge_count();
+    LegendEntry entry{.label = edges > 0 ? "roadmap edge, milestone" : "milestone", .dot = colors::components[0]};
+    if (edges > 0) {
+      const std::vector<std::uint8_t> color = component_colors(roadmap.graph, execution);
+      // The last colour is for single milestones, too.
+      std::size_t used = 1;
+      for (std::size_t c = 1; c + 1 < colors::components.size(); ++c) {
+        used += std::find(color.begin(), color.end(), c) != color.end() ? 1 : 0;
+      }
+      constexpr std::size_t most_pieces = 4;
+      used = std::min(used, most_pieces);
+      entry.lines.assign(colors::components.begin(), colors::components.begin() + static_cast<std::ptrdiff_t>(used));
+      if (used > 1) entry.label = "roadmap, a colour a component";
+      entry.width = 1.5;
+    }
+    entries.push_back(std::move(entry));
+  }
+  if (parts.has(Part::search) && !roadmap.search_tree.empty()) {
+    entries.push_back({.label = "search tree", .lines = {colors::search_tree}, .width = widths::search_tree});
+  }
+}
+
+void add_layer_entry(std::vector<LegendEntry>& entries, const PictureLayer& layer) {
+  if (layer.label.empty() || layer.lines.empty()) return;
+  for (const LegendEntry& there : entries) {
+    if (there.label == layer.label) return;
+  }
+  LegendEntry entry{.label = layer.label, .width = layer.width, .fill = layer.fill, .mark = layer.swatch};
+  if (layer.swatch && !layer.fill) entry.fill = layer.color;
+  if (layer.fill && layer.part == Part::world) entry.opacity = layer.opacity;
+  if (layer.width > 0.0) entry.lines = {layer.color};
+  entries.push_back(std::move(entry));
+}
+
+std::vector<LegendEntry> legend_of(const Picture& picture, Parts parts, const Execution& execution) {
+  std::vector<LegendEntry> entries;
+  const auto add_layers = [&](bool of_world) {
+    for (const PictureLayer& layer : picture.layers) {
+      if ((layer.part == Part::world) == of_world && parts.has(layer.part)) add_layer_entry(entries, layer);
+    }
+  };
+  if (parts.has(Part::world)) add_world_entries(entries, picture);
+  add_layers(true);
+  if (picture.roadmap != nullptr) add_roadmap_entries(entries, *picture.roadmap, parts, execution);
+  add_layers(false);
+  if (!parts.has(Part::path)) return entries;
+  if (!picture.path.empty()) {
+    entries.push_back({.label = picture.path_label, .lines = {colors::path}, .width = widths::path});
+  }
+  if (picture.start) entries.push_back({.label = "start", .fill = colors::start, .mark = MarkShape::disc});
+  if (picture.goal) entries.push_back({.label = "goal", .fill = colors::goal, .mark = MarkShape::star});
+  return entries;
+}
+
 constexpr double usual_side = 720.0;  // of the world's longer side
 constexpr double least_side = 36.0;   // of the shorter one
 constexpr double rim = 12.0;          // around the world, so that no mark is cut off
@@ -102,9 +177,9 @@ class PageMaker {
   PageMaker(const Picture& picture, const PictureOptions& options, bool in_pixels, const Execution& execution)
       : picture_(picture), options_(options), in_pixels_(in_pixels) {
     page_.canvas = canvas_of(picture, execution);
-    if (options.parts.has(Part::legend)) entries_ = legend_of(picture, options.parts, execution);
+    if (options.parts.has(Part::legend)) page_.legend = legend_of(picture, options.parts, execution);
     if (has_axes()) entry_width_ = 120.0;  // the scale bar's
-    for (const LegendEntry& entry : entries_) {
+    for (const LegendEntry& entry : page_.legend) {
       entry_width_ = std::max(entry_width_, swatch_width + swatch_gap + text_width(entry.label, text_size));
     }
     title_ = options.title.value_or(picture.title);
@@ -123,7 +198,7 @@ class PageMaker {
 
  private:
   /// Places in the legend; the scale bar has the last.
-  std::size_t slots() const { return entries_.empty() ? 0 : entries_.size() + (has_axes() ? 1 : 0); }
+  std::size_t slots() const { return page_.legend.empty() ? 0 : page_.legend.size() + (has_axes() ? 1 : 0); }
   bool has_axes() const { return options_.parts.has(Part::axes); }
   bool fixed() const { return options_.size.has_value(); }
   double world_width() const { return page_.canvas.box.width(); }
@@ -148,7 +223,7 @@ class PageMaker {
 
   /// Is there more room for the world with the legend beside it than with it below?
   bool best_side() {
-    if (entries_.empty()) return true;
+    if (page_.legend.empty()) return true;
     const double aspect = world_width() / world_height();
     if (!fixed()) return aspect < 1.4;
     const auto scale = [&](bool beside) {
@@ -167,7 +242,7 @@ class PageMaker {
     const double numbers = ticks_width();
     around_ = {margin + name + (has_axes() ? numbers + tick_length + 4.0 : 0.0), margin,
                std::max(margin, 0.5 * numbers), margin + axis + name};
-    if (beside && !entries_.empty()) around_.right += legend_gap + entry_width_;
+    if (beside && !page_.legend.empty()) around_.right += legend_gap + entry_width_;
     if (fixed()) return fit_data();
     page_.view.scale = (usual_side - 2.0 * rim) / std::max(world_width(), world_height());
     const double data_width = std::max(world_width() * page_.view.scale + 2.0 * rim, least_side);
@@ -202,7 +277,7 @@ class PageMaker {
     for (const std::string& line : subtitle_) widest = std::max(widest, text_width(line, text_size));
     page_.width = std::max(page_.width, widest + 2.0 * margin);
     page_.height = page_.data.max.y + around_.bottom;
-    if (entries_.empty()) return;
+    if (page_.legend.empty()) return;
     const auto count = static_cast<double>(slots());
     if (beside_) {
       page_.height = std::max(page_.height, page_.data.min.y + count * legend_row + margin);
@@ -264,7 +339,7 @@ class PageMaker {
     return text_width(of_all, text_size) <= room ? of_all : name;
   }
   void legend() {
-    if (entries_.empty()) return;
+    if (page_.legend.empty()) return;
     const std::size_t columns = beside_ ? 1 : legend_columns(page_.width - 2.0 * margin);
     const Vec2 first = beside_ ? Vec2{page_.data.max.x + legend_gap, page_.data.min.y + 0.5 * legend_row}
                                : Vec2{margin, page_.data.max.y + around_.bottom - margin + legend_gap};
@@ -272,10 +347,12 @@ class PageMaker {
       return first + Vec2{static_cast<double>(i % columns) * (entry_width_ + legend_gap),
                           static_cast<double>(i / columns) * legend_row};
     };
-    for (std::size_t i = 0; i < entries_.size(); ++i) page_.legend.push_back({place(i), entries_[i]});
-    if (has_axes()) add_scale_bar(page_, place(entries_.size()), unit_of(picture_.scene));
-    for (const PlacedLegend& placed : page_.legend) {
-      add_text(page_, {placed.at.x + swatch_width + swatch_gap, placed.at.y + 0.35 * text_size}, placed.entry.label);
+    const std::size_t count = page_.legend.size();
+    if (has_axes()) add_scale_bar(page_, place(count), unit_of(picture_.scene));
+    for (std::size_t i = 0; i < count; ++i) {
+      LegendEntry& entry = page_.legend[i];
+      entry.at = place(i);
+      add_text(page_, entry.at + Vec2{swatch_width + swatch_gap, 0.35 * text_size}, entry.label);
     }
   }
 
@@ -289,8 +366,7 @@ class PageMaker {
     }
   }
   double title_height() const {
-    double height = 0.0;
-    if (!title_.empty()) height += title_size * line_height;
+    double height = title_.empty() ? 0.0 : title_size * line_height;
     height += static_cast<double>(subtitle_.size()) * text_size * line_height;
     return height > 0.0 ? height + 4.0 : 0.0;
   }
@@ -306,76 +382,19 @@ class PageMaker {
   }
   std::size_t legend_columns(double width) const {
     const double columns = std::floor((width + legend_gap) / (entry_width_ + legend_gap));
-    return std::clamp<std::size_t>(static_cast<std::size_t>(std::max(columns, 1.0)), 1,
-                                   std::max<std::size_t>(slots(), 1));
+    return static_cast<std::size_t>(std::clamp(columns, 1.0, std::max(static_cast<double>(slots()), 1.0)));
   }
 
   const Picture& picture_;
   const PictureOptions& options_;
   bool in_pixels_;
   Page page_;
-  std::vector<LegendEntry> entries_;
   double entry_width_ = 0.0;
   std::string title_;
   std::vector<std::string> subtitle_;
   bool beside_ = true;  // the legend
   Margins around_{};
 };
-
-void add_world_entries(std::vector<LegendEntry>& entries, const Picture& picture) {
-  const Scene& scene = picture.scene;
-  if (!scene.polygons.empty()) {
-    entries.push_back({.label = scene.polygons.size() == 1 ? "obstacle" : "obstacles",
-                       .lines = {colors::outline},
-                       .width = widths::outline,
-                       .fill = colors::polygon});
-  }
-  // A map's walls are the borders of its cells.
-  if (scene.walls.size() > 0) {
-    const bool borders = scene.map.has_value();
-    entries.push_back(
-        {.label = borders ? "border of blocked cells" : "wall", .lines = {colors::wall}, .width = widths::wall});
-  } else if (scene.bounds && picture.panels.empty()) {
-    entries.push_back({.label = "bounds", .lines = {colors::wall}, .width = widths::wall});
-  }
-}
-
-void add_roadmap_entries(std::vector<LegendEntry>& entries, const PlannedRoadmap<Vec2>& roadmap, Parts parts,
-                         const Execution& execution) {
-  if (parts.has(Part::roadmap) && !roadmap.states.empty()) {
-    const std::size_t edges = roadmap.graph.edge_count();
-    LegendEntry entry{.label = edges > 0 ? "roadmap edge, milestone" : "milestone", .dot = colors::components[0]};
-    if (edges > 0) {
-      const std::vector<std::uint8_t> color = component_colors(roadmap.graph, execution);
-      // The last colour is for single milestones, too.
-      std::size_t used = 1;
-      for (std::size_t c = 1; c + 1 < colors::components.size(); ++c) {
-        used += std::find(color.begin(), color.end(), c) != color.end() ? 1 : 0;
-      }
-      constexpr std::size_t most_pieces = 4;
-      used = std::min(used, most_pieces);
-      entry.lines.assign(colors::components.begin(), colors::components.begin() + static_cast<std::ptrdiff_t>(used));
-      if (used > 1) entry.label = "roadmap, a colour a component";
-      entry.width = 1.5;
-    }
-    entries.push_back(std::move(entry));
-  }
-  if (parts.has(Part::search) && !roadmap.search_tree.empty()) {
-    entries.push_back({.label = "search tree", .lines = {colors::search_tree}, .width = widths::search_tree});
-  }
-}
-
-void add_layer_entry(std::vector<LegendEntry>& entries, const PictureLayer& layer) {
-  if (layer.label.empty() || layer.lines.empty()) return;
-  for (const LegendEntry& there : entries) {
-    if (there.label == layer.label) return;
-  }
-  LegendEntry entry{.label = layer.label, .width = layer.width, .fill = layer.fill, .mark = layer.swatch};
-  if (layer.swatch && !layer.fill) entry.fill = layer.color;
-  if (layer.fill && layer.part == Part::world) entry.opacity = layer.opacity;
-  if (layer.width > 0.0) entry.lines = {layer.color};
-  entries.push_back(std::move(entry));
-}
 
 }  // namespace
 
@@ -392,26 +411,6 @@ PlacedText foot_of(const Page& page, const std::string& words) {
 
 Page page_of(const Picture& picture, const PictureOptions& options, bool in_pixels, const Execution& execution) {
   return PageMaker(picture, options, in_pixels, execution).make();
-}
-
-std::vector<LegendEntry> legend_of(const Picture& picture, Parts parts, const Execution& execution) {
-  std::vector<LegendEntry> entries;
-  const auto add_layers = [&](bool of_world) {
-    for (const PictureLayer& layer : picture.layers) {
-      if ((layer.part == Part::world) == of_world && parts.has(layer.part)) add_layer_entry(entries, layer);
-    }
-  };
-  if (parts.has(Part::world)) add_world_entries(entries, picture);
-  add_layers(true);
-  if (picture.roadmap != nullptr) add_roadmap_entries(entries, *picture.roadmap, parts, execution);
-  add_layers(false);
-  if (!parts.has(Part::path)) return entries;
-  if (!picture.path.empty()) {
-    entries.push_back({.label = picture.path_label, .lines = {colors::path}, .width = widths::path});
-  }
-  if (picture.start) entries.push_back({.label = "start", .fill = colors::start, .mark = MarkShape::disc});
-  if (picture.goal) entries.push_back({.label = "goal", .fill = colors::goal, .mark = MarkShape::star});
-  return entries;
 }
 
 }  // namespace warren

@@ -25,10 +25,8 @@ struct LegendEntry {
   std::optional<Rgb> dot = {};         ///< on the line
   std::optional<MarkShape> mark = {};  ///< alone, filled with `fill`
   double opacity = 1.0;                ///< of an area
+  Vec2 at = {};                        ///< left end of the swatch, in the middle of the line
 };
-
-/// Throws Stopped.
-std::vector<LegendEntry> legend_of(const Picture& picture, Parts parts, const Execution& execution);
 
 enum class Anchor : std::uint8_t { start, middle, end };
 /// As SVG says it.
@@ -41,11 +39,6 @@ struct PlacedText {
   Anchor anchor = Anchor::start;
   bool bold = false;
   bool upright = false;  ///< turned by a quarter, reads upwards
-};
-
-struct PlacedLegend {
-  Vec2 at;  ///< left end of the swatch, in the middle of the line
-  LegendEntry entry;
 };
 
 /// From the world to the page.
@@ -71,7 +64,7 @@ struct Page {
   std::vector<PlacedText> texts;
   std::vector<Segment> frame;  ///< around the data, and ticks
   std::vector<Segment> ink;    ///< the scale bar
-  std::vector<PlacedLegend> legend;
+  std::vector<LegendEntry> legend;
 
   /// Factor of the widths of lines: 1 where a unit has twenty pixels.
   double thickness() const;

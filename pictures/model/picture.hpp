@@ -125,7 +125,7 @@ struct PictureLayer {
   Rgb color = colors::layer;           ///< of the lines
   double width = widths::edge;         ///< as widths say; 0: no lines
   PolygonSet lines = {};               ///< each a chain of points; a chain of one point twice is a dot
-  bool closed = false;                 ///< the chains are outlines
+  bool closed = false;                 ///< the chains are outlines, as all that have a fill are
   std::optional<Rgb> fill = {};        ///< of outlines that do not overlap, or may be taken together
   double opacity = 1.0;                ///< 0 .. 1
   bool blocks = true;                  ///< an area of Part::world is an obstacle

@@ -15,6 +15,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/base/printable.hpp"
 #include "core/base/types.hpp"
 #include "core/run/execution.hpp"
 #include "pictures/formats/markup.hpp"
@@ -27,6 +28,24 @@
 
 namespace warren {
 namespace {
+
+constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+
+std::string encoded(std::string_view bytes) {
+  std::string text;
+  text.reserve(bytes.size() / 3 * 4 + 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const auto byte = [&](std::size_t k) {
+      return k < bytes.size() ? static_cast<unsigned>(static_cast<unsigned char>(bytes[k])) : 0U;
+    };
+    const unsigned three = byte(i) << 16U | byte(i + 1) << 8U | byte(i + 2);
+    text += digits[three >> 18U];
+    text += digits[three >> 12U & 63U];
+    text += i + 1 < bytes.size() ? digits[three >> 6U & 63U] : '=';
+    text += i + 2 < bytes.size() ? digits[three & 63U] : '=';
+  }
+  return text;
+}
 
 const EmbeddedFile& file_named(std::string_view name) {
   const auto files = page_files();
@@ -53,23 +72,14 @@ std::string source_of(std::string_view script) {
 
 static_assert(std::endian::native == std::endian::little, "the arrays of pages are little-endian");
 
-template <class T>
-constexpr std::string_view array_type() {
-  if constexpr (std::is_same_v<T, float>) return "f32";
-  if constexpr (std::is_same_v<T, double>) return "f64";
-  if constexpr (std::is_same_v<T, std::uint8_t>) return "u8";
-  if constexpr (std::is_same_v<T, std::uint16_t>) return "u16";
-  if constexpr (std::is_same_v<T, std::int32_t>) return "i32";
-  return "u32";
-}
-
 /// A member of a JSON object that has one before it: begun by the constructor, ended by end(). add() throws Stopped.
 template <class T>
 class NumberArray {
  public:
   NumberArray(std::string_view name, const Execution& execution, const Write& write)
       : execution_(execution), write_(write), base64_(write) {
-    write_(fmt::format(",\"{}\":{{\"type\":\"{}\",\"data\":\"", name, array_type<T>()));
+    constexpr char kind = std::is_floating_point_v<T> ? 'f' : std::is_unsigned_v<T> ? 'u' : 'i';
+    write_(fmt::format(",\"{}\":{{\"type\":\"{}{}\",\"data\":\"", name, kind, 8 * sizeof(T)));
   }
   /// Numbers and points, in this order.
   template <class... Some>
@@ -148,9 +158,6 @@ class PageWriter {
   }
 
  private:
-  auto moving() const {
-    return [this](Vec2 p) { return moved(p); };
-  }
   void words(const std::string& title) {
     Json words{{"title", seen_text(title)},
                {"about", seen_text(picture_.subtitle)},
@@ -189,7 +196,7 @@ class PageWriter {
         {"widths", {{"edges", widths::edge}, {"milestones", widths::milestone}, {"search_tree", widths::search_tree}}}};
     for (const Rgb color : colors::components) about["colors"].push_back(css_color(color));
     begin(",\"graph\":", about);
-    numbers<float>("states", roadmap.states, moving());
+    numbers<float>("states", roadmap.states, [this](Vec2 p) { return moved(p); });
     numbers<std::uint8_t>("component", component);
     auto edges = numbers<std::uint32_t>("edges");
     roadmap.graph.for_each_edge([&](VertexId v, VertexId w) { edges.add(v, w); });
@@ -207,7 +214,7 @@ class PageWriter {
 
   void path() {
     if (picture_.path.empty()) return;
-    numbers<double>("path", without_arcs(picture_.path, picture_.path_turns), moving());
+    numbers<double>("path", without_arcs(picture_.path, picture_.path_turns), [this](Vec2 p) { return moved(p); });
     const MovingBody point;
     const MovingBody& body = picture_.body != nullptr && parts_.has(Part::body) ? *picture_.body : point;
     Json outline = Json::array();
@@ -291,7 +298,7 @@ class PageWriter {
                {"obstacle", layer.part == Part::world && layer.fill && layer.blocks},
                {"color", css_color(layer.fill.value_or(layer.color))},
                {"width", layer.width},
-               {"closed", layer.closed},
+               {"closed", layer.closed || layer.fill},
                {"opacity", layer.opacity}};
     if (layer.fill && layer.width > 0.0) about["outline"] = css_color(layer.color);
     if (!layer.opacities.empty()) about["opacities"] = layer.opacities;
@@ -508,6 +515,38 @@ class PageWriter {
 };
 
 }  // namespace
+
+std::string seen_text(std::string_view text) {
+  std::string out;
+  while (!text.empty()) {
+    const std::string_view character = text.substr(0, std::max<std::size_t>(utf8_bytes(text), 1));
+    const bool is_seen = character == "\n" || printable(character) == character;
+    out += is_seen ? character : std::string_view("?");
+    text.remove_prefix(character.size());
+  }
+  return out;
+}
+
+std::string xml_text(std::string_view text) {
+  std::string out;
+  for (const char c : seen_text(text)) {
+    const std::string_view piece(&c, 1);
+    out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '"' ? "&quot;" : piece;
+  }
+  return out;
+}
+
+std::string css_color(Rgb c) { return fmt::format("#{:02x}{:02x}{:02x}", c.red, c.green, c.blue); }
+
+void Base64::write(std::string_view bytes) {
+  left_ += bytes;
+  const std::size_t whole = left_.size() / 3 * 3;
+  if (whole == 0) return;
+  write_(encoded(std::string_view(left_).substr(0, whole)));
+  left_.erase(0, whole);
+}
+
+void Base64::end() { write_(encoded(left_)); }
 
 std::string_view page_file(std::string_view name) { return file_named(name).bytes; }
 

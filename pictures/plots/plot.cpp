@@ -376,58 +376,6 @@ Rgb rounded(const HeatColor& c) {
 
 bool is_dark(const HeatColor& c) { return 0.3 * c[0] + 0.59 * c[1] + 0.11 * c[2] < 128.0; }
 
-class HeatMapDrawing {
- public:
-  explicit HeatMapDrawing(const HeatMap& map)
-      : map_(map),
-        cell_{frame.width() / static_cast<double>(map.columns.size()),
-              frame.height() / static_cast<double>(map.rows.size())} {
-    for (const HeatMap::Cell& cell : map.cells) {
-      if (cell.value) scale_.include(*cell.value);
-    }
-    scale_.low = map.low.value_or(scale_.low);
-    scale_.high = map.high.value_or(scale_.high);
-  }
-
-  PlotSheet sheet() {
-    sheet_.keep_colors();
-    sheet_.begin(map_.title, frame, map_.x_label, map_.y_label, 40.0);
-    for (std::size_t i = 0; i < map_.columns.size(); ++i) {
-      sheet_.label({x_of(i) + 0.5 * cell_.x, frame.max.y + 18.0}, Anchor::middle, map_.columns[i]);
-    }
-    for (std::size_t i = 0; i < map_.rows.size(); ++i) {
-      sheet_.label({frame.min.x - 8.0, y_of(i) + 0.5 * cell_.y + 4.0}, Anchor::end, map_.rows[i]);
-    }
-    for (std::size_t row = 0; row < map_.rows.size(); ++row) {
-      for (std::size_t column = 0; column < map_.columns.size(); ++column) draw_cell(column, row);
-    }
-    return std::move(sheet_);
-  }
-
- private:
-  void draw_cell(std::size_t column, std::size_t row) {
-    const HeatMap::Cell& cell = map_.cells[row * map_.columns.size() + column];
-    const double share = cell.value ? share_of(*cell.value) : 0.0;
-    const HeatColor color = cell.value ? color_at(map_.less_is_better ? 1.0 - share : share) : HeatColor{232, 232, 232};
-    const Vec2 low{x_of(column), y_of(row)};
-    sheet_.box(
-        {low, low + cell_}, {.stroke = colors::paper, .fill = rounded(color)},
-        fmt::format("{} {}, {} {}: {}", map_.x_label, map_.columns[column], map_.y_label, map_.rows[row], cell.text));
-    sheet_.label(low + Vec2{0.5 * cell_.x, 0.5 * cell_.y + 4.0}, Anchor::middle, cell.text,
-                 is_dark(color) ? colors::paper : Rgb{0, 0, 0});  // a fill of its own, on dark pages, too
-  }
-  double share_of(double value) const {
-    return scale_.high > scale_.low ? (value - scale_.low) / (scale_.high - scale_.low) : 0.5;
-  }
-  double x_of(std::size_t column) const { return frame.min.x + cell_.x * static_cast<double>(column); }
-  double y_of(std::size_t row) const { return frame.max.y - cell_.y * static_cast<double>(row + 1); }
-
-  const HeatMap& map_;
-  Vec2 cell_;  // width and height of one
-  PlotExtent scale_;
-  PlotSheet sheet_;
-};
-
 }  // namespace
 
 void PlotSheet::begin(const std::string& title, const Box& frame, const std::string& x_label,
@@ -507,16 +455,51 @@ void PlotsPage::write(const std::string& file, const std::string& title, const E
   };
   OutputFile output(file, execution);
   const Write put = [&](std::string_view bytes) { output.write(bytes); };
-  if (ending == ".png") {
-    draw_png(page, draw, execution, put);
-  } else {
-    draw_pdf(page, title, {}, draw, execution, put);
-  }
+  ending == ".png" ? draw_png(page, draw, execution, put) : draw_pdf(page, title, {}, draw, execution, put);
   output.commit();
 }
 
 PlotSheet sheet_of(const Plot& plot) { return PlotDrawing(plot).sheet(); }
 PlotSheet sheet_of(const BoxPlot& plot) { return BoxDrawing(plot).sheet(); }
-PlotSheet sheet_of(const HeatMap& map) { return HeatMapDrawing(map).sheet(); }
+
+PlotSheet sheet_of(const HeatMap& map) {
+  PlotExtent scale;
+  for (const HeatMap::Cell& cell : map.cells) {
+    if (cell.value) scale.include(*cell.value);
+  }
+  const double low = map.low.value_or(scale.low);
+  const double high = map.high.value_or(scale.high);
+  const auto color_of = [&](double value) {
+    const double share = high > low ? (value - low) / (high - low) : 0.5;
+    return color_at(map.less_is_better ? 1.0 - share : share);
+  };
+  const Vec2 size{frame.width() / static_cast<double>(map.columns.size()),
+                  frame.height() / static_cast<double>(map.rows.size())};
+  const auto corner = [&](std::size_t column, std::size_t row) {
+    return Vec2{frame.min.x + size.x * static_cast<double>(column),
+                frame.max.y - size.y * static_cast<double>(row + 1)};
+  };
+  PlotSheet sheet;
+  sheet.keep_colors();
+  sheet.begin(map.title, frame, map.x_label, map.y_label, 40.0);
+  for (std::size_t i = 0; i < map.columns.size(); ++i) {
+    sheet.label({corner(i, 0).x + 0.5 * size.x, frame.max.y + 18.0}, Anchor::middle, map.columns[i]);
+  }
+  for (std::size_t i = 0; i < map.rows.size(); ++i) {
+    sheet.label({frame.min.x - 8.0, corner(0, i).y + 0.5 * size.y + 4.0}, Anchor::end, map.rows[i]);
+  }
+  for (std::size_t i = 0; i < map.cells.size(); ++i) {
+    const HeatMap::Cell& cell = map.cells[i];
+    const std::size_t column = i % map.columns.size();
+    const std::size_t row = i / map.columns.size();
+    const HeatColor color = cell.value ? color_of(*cell.value) : HeatColor{232, 232, 232};
+    const Vec2 at = corner(column, row);
+    sheet.box({at, at + size}, {.stroke = colors::paper, .fill = rounded(color)},
+              fmt::format("{} {}, {} {}: {}", map.x_label, map.columns[column], map.y_label, map.rows[row], cell.text));
+    sheet.label(at + Vec2{0.5 * size.x, 0.5 * size.y + 4.0}, Anchor::middle, cell.text,
+                is_dark(color) ? colors::paper : Rgb{0, 0, 0});  // a fill of its own, on dark pages, too
+  }
+  return sheet;
+}
 
 }  // namespace warren

@@ -177,17 +177,15 @@ class AnytimeSearch {
 
   enum class Part : std::uint8_t { tree, restarts, roadmap, shorten };
   struct Found {
-    explicit Found(Part part = Part::tree) : by(part) {}
-    Path<State> path;
+    Part by = Part::tree;
+    Path<State> path = {};
     double cost = std::numeric_limits<double>::infinity();
-    Part by;
     bool is_shortened = false;
-    Counters counters;
+    Counters counters = {};
   };
   struct Restart {
     std::unique_ptr<RrtConnectSearch<W>> trees;
     std::uint64_t index = 0;  // of its seed
-    double looseness = 0.0;   // it may cost so much more than the best, as a share
     Counters counted;         // of its work, what was told already
   };
 
@@ -331,12 +329,8 @@ class AnytimeSearch {
       if (is_rough && found.cost < hopeless * before) rough_.push_back(std::move(found));
       return;
     }
-    if (was_replaced_ && !is_shortened_) {  // by another one in this turn: nobody has shortened it yet
-      Found earlier;
-      earlier.path = std::move(solution_.path);
-      earlier.cost = before;
-      if (options_.parts.shorten) rough_.push_back(std::move(earlier));
-    }
+    if (was_replaced_ && !is_shortened_ && options_.parts.shorten)  // by another one in this turn: it is rough yet
+      rough_.push_back({.path = std::move(solution_.path), .cost = before});
     was_replaced_ = true;
     was_lucky_[index_of(found.by)] = true;
     if (found.by != Part::shorten) dull_ = found.is_shortened && !body_.draws ? most_dull : 0;
@@ -367,7 +361,7 @@ class AnytimeSearch {
   }
 
   Found grow_tree(const Execution& execution) {
-    Found found(Part::tree);
+    Found found{.by = Part::tree};
     if (options_.informed) {
       for (const Path<State>& path : to_join_) tree_->take(path, execution);
     }
@@ -385,15 +379,15 @@ class AnytimeSearch {
   /// One pair of trees, from turn to turn, until it arrives or has grown too large. Each has a whole share until there
   /// is a path, since they are most often the first to arrive, then its part of one.
   Found grow_restart(Restart& restart, const Execution& execution) {
-    Found found(Part::restarts);
+    Found found{.by = Part::restarts};
     const auto slot = static_cast<std::uint64_t>(&restart - restarts_.data());
     if (!restart.trees) {
       const std::uint64_t index = restart_count * restart.index++ + slot;
-      restart.looseness = 0.05 + 0.95 * uniform(options_.trees.seed, index, 15);
+      const double looseness = 0.05 + 0.95 * uniform(options_.trees.seed, index, 15);
       restart.counted = {};
       restart.trees = std::make_unique<RrtConnectSearch<W>>(world_, start_, std::span<const State>(goals_),
                                                             restart_options_, step_, index);
-      if (has_path()) restart.trees->bound(solution_.cost * (1.0 + restart.looseness));
+      if (has_path()) restart.trees->bound(solution_.cost * (1.0 + looseness));
     }
     RrtConnectSearch<W>& trees = *restart.trees;
     trees.advance_by_work(restart_share(), execution);
@@ -412,7 +406,7 @@ class AnytimeSearch {
     constexpr std::uint64_t first_samples = 50;
     constexpr std::uint64_t most_doublings = 20;
     const std::uint64_t least_credit = pulls_taut_ ? 0 : 1'000;  // what the first may take: trees often arrive before
-    Found found(Part::roadmap);
+    Found found{.by = Part::roadmap};
     credit_ += share_of(Part::roadmap);
     if (credit_ < std::max(least_credit, 2 * roadmap_work_)) return found;
     RoadmapOptions options = options_.roadmap;
@@ -439,8 +433,7 @@ class AnytimeSearch {
 
   Found shortened(Part by, const Path<State>& path, double too_dear, std::uint64_t draw,
                   const Execution& execution) const {
-    Found found(by);
-    found.is_shortened = true;
+    Found found{.by = by, .is_shortened = true};
     const std::uint64_t seed = random_bits(options_.trees.seed, solution_.iterations, draw);
     found.path = body_.shortened(path, too_dear, seed, execution, found.counters);
     found.cost = cost_of(found.path);

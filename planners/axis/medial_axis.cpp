@@ -27,7 +27,6 @@ Vec2 unit(Vec2 v) {
 namespace boost_polygon = boost::polygon;
 
 constexpr std::size_t bytes_per_segment = 1000;
-constexpr std::size_t items_per_poll = 1 << 16;
 
 /// Of the construction that runs in this thread: Boost makes its predicates itself, so they look here.
 thread_local const Execution* construction = nullptr;
@@ -74,12 +73,6 @@ struct PolledDiagramTraits : PlainDiagramTraits {
 using Diagram = boost_polygon::voronoi_diagram<double, PolledDiagramTraits>;
 using Builder = boost_polygon::voronoi_builder<std::int32_t, IntegerTraits, PolledPredicates>;
 
-struct VoronoiDiagram {
-  std::vector<Vec2> vertices;
-  std::vector<VoronoiSite> sites;
-  std::vector<AxisEdge> edges;  ///< unmeasured; their sites share no point, or are two segments that share an end
-};
-
 constexpr double units_of_resolution = 4.0;
 
 /// Vertices are right to some units in the last place. Rounded to 2^-12 grid units, which is nothing beside the snap,
@@ -95,8 +88,9 @@ VoronoiSite site_of(const Diagram::cell_type& cell, const SnappedSegments& snapp
   return {is_end ? Segment{b, b} : Segment{a, a}, s.source};
 }
 
-/// In world units. Throws Stopped; for memory only before it begins.
-VoronoiDiagram voronoi_diagram(const SnappedSegments& snapped, const Execution& execution) {
+/// Gives the axis its vertices, its sites and all edges, unmeasured, whose sites share no point, or are two segments
+/// that share an end. In world units. Throws Stopped; for memory only before it begins.
+void add_diagram(const SnappedSegments& snapped, MedialAxis& axis, const Execution& execution) {
   execution.check();
   execution.reserve(snapped.segments.size() * bytes_per_segment);
   const ConstructionScope scope(execution);
@@ -114,20 +108,16 @@ VoronoiDiagram voronoi_diagram(const SnappedSegments& snapped, const Execution& 
   builder.construct(&diagram);
   execution.check();
 
-  VoronoiDiagram result;
   std::size_t taken = 0;
-  const auto poll = [&] {
-    if (++taken % items_per_poll == 0) execution.check();
-  };
-  result.vertices.reserve(diagram.num_vertices());
+  axis.vertices.reserve(diagram.num_vertices());
   for (const auto& vertex : diagram.vertices()) {
-    poll();
-    result.vertices.push_back(snapped.grid.at(without_noise(vertex.x()), without_noise(vertex.y())));
+    execution.poll(++taken);
+    axis.vertices.push_back(snapped.grid.at(without_noise(vertex.x()), without_noise(vertex.y())));
   }
-  result.sites.reserve(diagram.num_cells());
+  axis.sites.reserve(diagram.num_cells());
   for (const auto& cell : diagram.cells()) {
-    poll();
-    result.sites.push_back(site_of(cell, snapped));
+    execution.poll(++taken);
+    axis.sites.push_back(site_of(cell, snapped));
   }
   const auto vertex_number = [&](const Diagram::vertex_type* v) {
     return static_cast<std::uint32_t>(v - diagram.vertices().data());
@@ -135,14 +125,13 @@ VoronoiDiagram voronoi_diagram(const SnappedSegments& snapped, const Execution& 
   const auto site_number = [&](const Diagram::cell_type* c) {
     return static_cast<std::uint32_t>(c - diagram.cells().data());
   };
-  result.edges.reserve(diagram.num_edges() / 2);
+  axis.edges.reserve(diagram.num_edges() / 2);
   for (const auto& edge : diagram.edges()) {
-    poll();
+    execution.poll(++taken);
     if (&edge > edge.twin() || edge.is_secondary() || edge.is_infinite()) continue;
-    result.edges.push_back({vertex_number(edge.vertex0()), vertex_number(edge.vertex1()), site_number(edge.cell()),
-                            site_number(edge.twin()->cell()), 0.0, 0.0});
+    axis.edges.push_back({vertex_number(edge.vertex0()), vertex_number(edge.vertex1()), site_number(edge.cell()),
+                          site_number(edge.twin()->cell()), 0.0, 0.0});
   }
-  return result;
 }
 
 }  // namespace
@@ -212,54 +201,47 @@ void AxisCurve::append_polyline(std::vector<Vec2>& path) const {
   path.push_back(to_);
 }
 
-MedialAxis::MedialAxis(const PlaneObstacles& obstacles, const Execution& execution) : obstacles_(obstacles.walls) {
-  for (std::size_t p = 0; p < obstacles.polygons.size(); ++p) {
-    for_each_side(obstacles.polygons[p], [&](Vec2 a, Vec2 b) { obstacles_.push_back({a, b}); });
+MedialAxis::MedialAxis(const PlaneObstacles& plane, const Execution& execution) : obstacles(plane.walls) {
+  for (std::size_t p = 0; p < plane.polygons.size(); ++p) {
+    for_each_side(plane.polygons[p], [&](Vec2 a, Vec2 b) { obstacles.push_back({a, b}); });
   }
-  for (const Segment& s : obstacles_) frame_.include(box_of(s));
-  if (obstacles.bounds) frame_ = *obstacles.bounds;
-  true_obstacle_count_ = obstacles_.size();
-  for_each_side(frame_.corners(), [&](Vec2 a, Vec2 b) { obstacles_.push_back({a, b}); });
-  if (obstacles.bounds) true_obstacle_count_ = obstacles_.size();
-  if (!(frame_.width() > 0.0) || !(frame_.height() > 0.0)) {
+  for (const Segment& s : obstacles) frame.include(box_of(s));
+  if (plane.bounds) frame = *plane.bounds;
+  true_obstacle_count = obstacles.size();
+  for_each_side(frame.corners(), [&](Vec2 a, Vec2 b) { obstacles.push_back({a, b}); });
+  if (plane.bounds) true_obstacle_count = obstacles.size();
+  if (!(frame.width() > 0.0) || !(frame.height() > 0.0)) {
     throw InputError("medial axis", "expected bounds, or obstacles that span an area");
   }
-  const SnappedSegments snapped = snap_segments(obstacles_, execution);
-  VoronoiDiagram diagram = voronoi_diagram(snapped, execution);
-  resolution_ = units_of_resolution * (snapped.grid.unit + snapped.error);
-  vertices_ = std::move(diagram.vertices);
-  sites_ = std::move(diagram.sites);
-  const std::vector<char> is_free = free_points(obstacles, vertices_, execution);
-  edges_.reserve(diagram.edges.size());
-  for (std::size_t i = 0; i < diagram.edges.size(); ++i) {
+  const SnappedSegments snapped = snap_segments(obstacles, execution);
+  resolution = units_of_resolution * (snapped.grid.unit + snapped.error);
+  add_diagram(snapped, *this, execution);
+  decompose({plane.polygons, {}, {}}, {}, execution);  // throws where polygons overlap
+  const PolygonIndex polygons(plane.polygons, execution);
+  std::vector<char> is_free(vertices.size());  // inside the frame (or on it) and not strictly inside a polygon; exact
+  for_each_index(vertices.size(), 1024, execution, [&](std::size_t i) {
+    is_free[i] = frame.contains(vertices[i]) && !polygons.polygon_around(vertices[i]) ? 1 : 0;
+  });
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
     execution.poll(i);
-    AxisEdge& edge = diagram.edges[i];
+    AxisEdge edge = edges[i];
     // The end with more room tells for sure on which side of the obstacles the whole edge lies.
-    const auto room = [&](VertexId v) { return distance(vertices_[v], obstacles_[sites_[edge.site].segment]); };
+    const auto room = [&](VertexId v) { return distance(vertices[v], obstacles[sites[edge.site].segment]); };
     const VertexId wide = room(edge.from) >= room(edge.to) ? edge.from : edge.to;
-    if (is_free[wide] == 0 || room(wide) <= resolution_) continue;
+    if (is_free[wide] == 0 || room(wide) <= resolution) continue;
     const AxisCurve bare = curve(edge);
     edge.length = bare.length();
     edge.clearance = least_clearance(edge, bare);
-    edges_.push_back(edge);
+    edges[kept++] = edge;
   }
-}
-
-std::vector<char> MedialAxis::free_points(const PlaneObstacles& obstacles, const std::vector<Vec2>& points,
-                                          const Execution& execution) const {
-  decompose({obstacles.polygons, {}, {}}, {}, execution);  // throws where polygons overlap
-  const PolygonIndex polygons(obstacles.polygons, execution);
-  std::vector<char> is_free(points.size());
-  for_each_index(points.size(), 1024, execution, [&](std::size_t i) {
-    is_free[i] = frame_.contains(points[i]) && !polygons.polygon_around(points[i]) ? 1 : 0;
-  });
-  return is_free;
+  edges.resize(kept);
 }
 
 double MedialAxis::least_clearance(const AxisEdge& edge, const AxisCurve& curve) const {
   const auto clearance_at = [&](Vec2 p) {
-    return std::min(distance(p, obstacles_[sites_[edge.site].segment]),
-                    distance(p, obstacles_[sites_[edge.other].segment]));
+    return std::min(distance(p, obstacles[sites[edge.site].segment]),
+                    distance(p, obstacles[sites[edge.other].segment]));
   };
   const double least = std::min(clearance_at(curve.from()), clearance_at(curve.to()));
   const auto [low, high] = std::minmax({curve.first(), curve.last()});

@@ -78,39 +78,24 @@ struct AxisEdge {
 };
 
 /// Immutable after construction; any number of threads may read.
-class MedialAxis {
- public:
+struct MedialAxis {
   /// Throws ObstacleClash where polygons overlap; InputError where the frame has no inside; Stopped at the deadline.
   /// There must be an obstacle or bounds.
-  MedialAxis(const PlaneObstacles& obstacles, const Execution& execution);
+  MedialAxis(const PlaneObstacles& plane, const Execution& execution);
 
-  const Box& frame() const { return frame_; }
-  const std::vector<Vec2>& vertices() const { return vertices_; }
-  const std::vector<AxisEdge>& edges() const { return edges_; }
-  /// Which of the points lie inside the frame (or on it) and not strictly inside a polygon? 1 or 0 each; exact.
-  std::vector<char> free_points(const PlaneObstacles& obstacles, const std::vector<Vec2>& points,
-                                const Execution& execution) const;
   AxisCurve curve(const AxisEdge& edge) const {
-    return {sites_[edge.site].shape, sites_[edge.other].shape, vertices_[edge.from], vertices_[edge.to]};
+    return {sites[edge.site].shape, sites[edge.other].shape, vertices[edge.from], vertices[edge.to]};
   }
   /// Least distance of the curve to the two obstacles that it lies between.
   double least_clearance(const AxisEdge& edge, const AxisCurve& curve) const;
-  /// Of each, its segment is one of obstacles().
-  const std::vector<VoronoiSite>& sites() const { return sites_; }
-  /// Walls, polygons' sides, and the frame's four sides; bounds are obstacles, a mere box isn't.
-  const std::vector<Segment>& obstacles() const { return obstacles_; }
-  std::size_t true_obstacle_count() const { return true_obstacle_count_; }
-  /// Curves with less clearance are closed to everybody.
-  double resolution() const { return resolution_; }
 
- private:
-  Box frame_;
-  std::vector<Segment> obstacles_;
-  std::size_t true_obstacle_count_ = 0;
-  std::vector<Vec2> vertices_;
-  std::vector<VoronoiSite> sites_;
-  std::vector<AxisEdge> edges_;
-  double resolution_ = 0.0;
+  Box frame;                            ///< the bounds; without them, the obstacles' box
+  std::vector<Segment> obstacles;       ///< walls, polygons' sides, and the frame's four sides
+  std::size_t true_obstacle_count = 0;  ///< the first of them: bounds are obstacles, a mere box isn't
+  std::vector<Vec2> vertices;           ///< of the diagram, in free space or not
+  std::vector<VoronoiSite> sites;       ///< of each, its segment is one of the obstacles
+  std::vector<AxisEdge> edges;          ///< in free space
+  double resolution = 0.0;              ///< curves with less clearance are closed to everybody
 };
 
 }  // namespace warren

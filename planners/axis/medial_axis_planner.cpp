@@ -14,6 +14,7 @@
 #include "core/plane/wall_set.hpp"
 #include "core/search/search.hpp"
 #include "core/search/union_find.hpp"
+#include "parallel/asked_memory.hpp"
 #include "parallel/sort.hpp"
 #include "planners/graph/any_world.hpp"
 #include "planners/graph/assemble_graph.hpp"
@@ -74,10 +75,11 @@ struct Retraction {
   }
 };
 
-std::optional<Retraction> retraction_of(const MedialAxis& axis, Vec2 p) {
-  const std::vector<VoronoiSite>& sites = axis.sites();
+std::optional<Retraction> retraction_of(const MedialAxis& axis, Vec2 p, const Execution& execution) {
+  const std::vector<VoronoiSite>& sites = axis.sites;
   Retraction best{0, p, {}, infinity};
   for (std::uint32_t s = 0; s < sites.size(); ++s) {
+    execution.poll(s);
     const double d = distance(p, sites[s].shape);
     // An end of a segment is a site of its own, and comes first where both are as near.
     if (d < best.room || (d == best.room && is_point(sites[s].shape))) {
@@ -90,7 +92,7 @@ std::optional<Retraction> retraction_of(const MedialAxis& axis, Vec2 p) {
   if (!is_point(site)) {
     const Vec2 along = site.b - site.a;
     Vec2 normal{-along.y, along.x};
-    const Vec2 inwards = 0.5 * (axis.frame().min + axis.frame().max) - p;  // for points on the frame
+    const Vec2 inwards = 0.5 * (axis.frame.min + axis.frame.max) - p;  // for points on the frame
     if (dot(normal, best.room > 0.0 ? away : inwards) < 0.0) normal = -1.0 * normal;
     best.direction = (1.0 / norm(normal)) * normal;
   } else if (best.room > 0.0) {
@@ -102,26 +104,28 @@ std::optional<Retraction> retraction_of(const MedialAxis& axis, Vec2 p) {
 }
 
 /// Distance of the closed segment to the nearest true obstacle; infinite where there is none.
-double clearance_of_leg(const MedialAxis& axis, const Segment& leg) {
+double clearance_of_leg(const MedialAxis& axis, const Segment& leg, const Execution& execution) {
   double least = infinity;
-  for (std::size_t i = 0; i < axis.true_obstacle_count(); ++i) {
-    least = std::min(least, distance(leg, axis.obstacles()[i]));
+  for (std::size_t i = 0; i < axis.true_obstacle_count; ++i) {
+    execution.poll(i);
+    least = std::min(least, distance(leg, axis.obstacles[i]));
   }
   return least;
 }
 
 /// Where p, free and inside the frame, retracts to; none where rounding hides it, or where p touches an obstacle.
-std::optional<AxisPlace> retract(const MedialAxis& axis, Vec2 p) {
-  const std::optional<Retraction> ray = retraction_of(axis, p);
+std::optional<AxisPlace> retract(const MedialAxis& axis, Vec2 p, const Execution& execution) {
+  const std::optional<Retraction> ray = retraction_of(axis, p, execution);
   if (!ray) return std::nullopt;
-  const double fit = tolerance * std::max(axis.frame().width(), axis.frame().height());
+  const double fit = tolerance * std::max(axis.frame.width(), axis.frame.height());
   std::optional<AxisPlace> found;
   double nearest = infinity;
-  for (std::uint32_t i = 0; i < axis.edges().size(); ++i) {
-    const AxisEdge& edge = axis.edges()[i];
+  for (std::uint32_t i = 0; i < axis.edges.size(); ++i) {
+    execution.poll(i);
+    const AxisEdge& edge = axis.edges[i];
     if (edge.site != ray->site && edge.other != ray->site) continue;
     const std::uint32_t other = edge.site == ray->site ? edge.other : edge.site;
-    const double reach = std::max(0.0, ray->reach(axis.sites()[other].shape));
+    const double reach = std::max(0.0, ray->reach(axis.sites[other].shape));
     if (!(reach < nearest)) continue;
     const AxisCurve curve = axis.curve(edge);
     const Vec2 hit = p + reach * ray->direction;
@@ -157,10 +161,10 @@ class AxisGraph {
   AxisGraph(const MedialAxis& axis, const AxisPlace& start, const AxisPlace& goal, double clearance,
             const Execution& execution)
       : axis_(axis), execution_(execution), ends_{start, goal} {
-    const double least = std::max(clearance, axis.resolution());
-    for (std::uint32_t i = 0; i < axis.edges().size(); ++i) {
+    const double least = std::max(clearance, axis.resolution);
+    for (std::uint32_t i = 0; i < axis.edges.size(); ++i) {
       if (i % links_per_poll == 0) execution_.check();
-      const AxisEdge& e = axis.edges()[i];
+      const AxisEdge& e = axis.edges[i];
       if (e.clearance < least) continue;
       const AxisCurve curve = axis.curve(e);
       links_.push_back({e.from, e.to, i, curve.first(), curve.last(), e.length, e.clearance});
@@ -171,10 +175,10 @@ class AxisGraph {
     index_links();
   }
 
-  std::size_t vertex_count() const { return axis_.vertices().size() + 2; }
-  VertexId start() const { return static_cast<VertexId>(axis_.vertices().size()); }
+  std::size_t vertex_count() const { return axis_.vertices.size() + 2; }
+  VertexId start() const { return static_cast<VertexId>(axis_.vertices.size()); }
   VertexId goal() const { return start() + 1; }
-  Vec2 place(VertexId v) const { return v < start() ? axis_.vertices()[v] : ends_[v - start()].at; }
+  Vec2 place(VertexId v) const { return v < start() ? axis_.vertices[v] : ends_[v - start()].at; }
   const std::vector<AxisLink>& links() const { return links_; }
   Graph graph() const {
     std::vector<Edge> edges;
@@ -245,7 +249,7 @@ class AxisGraph {
       const AxisLink& l = link_between(path[i - 1], path[i]);
       const bool forward = l.from == path[i - 1];
       const auto [first, last] = forward ? std::pair(l.first, l.last) : std::pair(l.last, l.first);
-      const AxisCurve curve = axis_.curve(axis_.edges()[l.edge]);
+      const AxisCurve curve = axis_.curve(axis_.edges[l.edge]);
       curve.part(first, last, place(path[i - 1]), place(path[i])).append_polyline(points);
     }
     return points;
@@ -253,7 +257,7 @@ class AxisGraph {
 
  private:
   void add(VertexId from, VertexId to, std::uint32_t edge, double first, double last, double clearance) {
-    const AxisEdge& e = axis_.edges()[edge];
+    const AxisEdge& e = axis_.edges[edge];
     const AxisCurve part = axis_.curve(e).part(first, last, place(from), place(to));
     const double room = axis_.least_clearance(e, part);
     if (room >= clearance) links_.push_back({from, to, edge, first, last, part.length(), room});
@@ -261,7 +265,7 @@ class AxisGraph {
   /// Links one of the ends with both vertices of its edge.
   void join(VertexId v, double clearance) {
     const AxisPlace& place = ends_[v - start()];
-    const AxisEdge& e = axis_.edges()[place.edge];
+    const AxisEdge& e = axis_.edges[place.edge];
     const AxisCurve curve = axis_.curve(e);
     add(v, e.from, place.edge, place.parameter, curve.first(), clearance);
     add(v, e.to, place.edge, place.parameter, curve.last(), clearance);
@@ -286,10 +290,6 @@ class AxisGraph {
 constexpr double planning_factor = 1.0 + 1e-9;  // the clearance that is asked for where rounding costs the exact one
 constexpr std::size_t most_candidates = 64;
 
-WallSet true_obstacles(const MedialAxis& axis) {
-  return WallSet::narrowest(std::span(axis.obstacles()).first(axis.true_obstacle_count()));
-}
-
 bool line_keeps_clearance(const WallIndex& walls, std::span<const Vec2> line, double r, const Execution& execution) {
   for (std::size_t i = 1; i < line.size(); ++i) {
     if (i % 1024 == 0) execution.check();
@@ -308,8 +308,16 @@ class AxisPlanning {
   }
 
   void run(const PlaneObstacles& obstacles) {
-    if (obstacles.polygons.empty() && obstacles.walls.empty() && !obstacles.bounds) return go_straight();
-    build(obstacles);
+    if (obstacles.polygons.empty() && obstacles.walls.empty() && !obstacles.bounds) {
+      solution_.outcome = Outcome::solved;
+      solution_.path = {start_, goal_};
+      plan_.axis_clearance = infinity;
+      return;
+    }
+    {
+      const StageTimer timer(execution_, "medial axis", solution_.seconds.graph);
+      plan_.made.emplace(obstacles, execution_);
+    }
     run(*plan_.made);
   }
   void run(const AxisRoadmap& roadmap) {
@@ -319,7 +327,7 @@ class AxisPlanning {
     // with a little more room.
     if (plan(options_.clearance) && !keeps_clearance()) {
       solution_.path.clear();
-      if (plan(std::max(options_.clearance * planning_factor, axis().resolution())) && !keeps_clearance()) {
+      if (plan(std::max(options_.clearance * planning_factor, axis().resolution)) && !keeps_clearance()) {
         solution_.outcome = Outcome::not_connected;
         solution_.path.clear();
       }
@@ -330,18 +338,9 @@ class AxisPlanning {
 
  private:
   const MedialAxis& axis() const { return roadmap_->axis; }
-  void go_straight() {
-    solution_.outcome = Outcome::solved;
-    solution_.path = {start_, goal_};
-    plan_.axis_clearance = infinity;
-  }
-  void build(const PlaneObstacles& obstacles) {
-    const StageTimer timer(execution_, "medial axis", solution_.seconds.graph);
-    plan_.made.emplace(obstacles, execution_);
-  }
   bool ends_are_blocked() {
     const auto fits = [&, &polygons = roadmap_->polygons](Vec2 p) {
-      if (!axis().frame().contains(p)) return false;
+      if (!axis().frame.contains(p)) return false;
       for (std::size_t i = 0; i < polygons.size(); ++i) {
         execution_.poll(i);
         if (strictly_inside(polygons[i], p)) return false;
@@ -354,7 +353,7 @@ class AxisPlanning {
     return true;
   }
   bool is_clear(const Segment& leg) const {
-    const double room = clearance_of_leg(axis(), leg);
+    const double room = clearance_of_leg(axis(), leg, execution_);
     return room >= options_.clearance && room > 0.0;
   }
   bool join_ends() {
@@ -364,21 +363,24 @@ class AxisPlanning {
     return start_place_ && goal_place_;
   }
   std::optional<AxisPlace> join(Vec2 p) const {
-    const std::optional<AxisPlace> place = retract(axis(), p);
+    const std::optional<AxisPlace> place = retract(axis(), p, execution_);
     if (place && is_clear({p, place->at})) return place;
     return nearest_clear(p);
   }
   /// Where rounding hides the retraction: the nearest vertex in sight.
   std::optional<AxisPlace> nearest_clear(Vec2 p) const {
     std::vector<std::pair<double, std::uint32_t>> near;
-    const std::vector<AxisEdge>& edges = axis().edges();
-    for (std::uint32_t i = 0; i < edges.size(); ++i) near.push_back({distance(p, axis().vertices()[edges[i].from]), i});
+    const std::vector<AxisEdge>& edges = axis().edges;
+    for (std::uint32_t i = 0; i < edges.size(); ++i) {
+      execution_.poll(i);
+      push_asked(near, {distance(p, axis().vertices[edges[i].from]), i}, execution_);
+    }
     const std::size_t count = std::min(most_candidates, near.size());
     std::partial_sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count), near.end());
     for (std::size_t i = 0; i < count; ++i) {
       execution_.check();
       const AxisEdge& edge = edges[near[i].second];
-      const Vec2 at = axis().vertices()[edge.from];
+      const Vec2 at = axis().vertices[edge.from];
       if (is_clear({p, at})) return AxisPlace{near[i].second, axis().curve(edge).first(), at};
     }
     return std::nullopt;
@@ -461,7 +463,9 @@ bool certainly_keeps_clearance(const WallIndex& walls, const Segment& leg, doubl
 }
 
 AxisRoadmap::AxisRoadmap(const PlaneObstacles& obstacles, const Execution& execution)
-    : polygons(obstacles.polygons), axis(obstacles, execution), index(true_obstacles(axis), execution) {}
+    : polygons(obstacles.polygons),
+      axis(obstacles, execution),
+      index(WallSet::narrowest(std::span(axis.obstacles).first(axis.true_obstacle_count)), execution) {}
 
 Solution<Vec2> plan_on_medial_axis(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal,
                                    const MedialAxisOptions& options, const Execution& execution, MedialAxisPlan* keep) {
@@ -475,23 +479,23 @@ Solution<Vec2> plan_on_medial_axis(const AxisRoadmap& roadmap, Vec2 start, Vec2 
 
 StraightLines axis_lines(const AxisRoadmap& roadmap, double clearance, const Execution& execution) {
   const MedialAxis& axis = roadmap.axis;
-  const double least = std::max(clearance, axis.resolution());
+  const double least = std::max(clearance, axis.resolution);
   StraightLines lines;
-  std::vector<VertexId> point_of(axis.vertices().size(), no_vertex);  // made where a line first comes by
+  std::vector<VertexId> point_of(axis.vertices.size(), no_vertex);  // made where a line first comes by
   const auto point = [&](Vec2 at) {
     lines.points.push_back(at);
     return static_cast<VertexId>(lines.points.size() - 1);
   };
   const auto vertex = [&](VertexId v) {
-    if (point_of[v] == no_vertex) point_of[v] = point(axis.vertices()[v]);
+    if (point_of[v] == no_vertex) point_of[v] = point(axis.vertices[v]);
     return point_of[v];
   };
   std::vector<Vec2> corners;
-  for (std::size_t i = 0; i < axis.edges().size(); ++i) {
+  for (std::size_t i = 0; i < axis.edges.size(); ++i) {
     if (i % 256 == 0) execution.check();
-    const AxisEdge& edge = axis.edges()[i];
+    const AxisEdge& edge = axis.edges[i];
     if (edge.clearance < least) continue;
-    corners.assign(1, axis.vertices()[edge.from]);
+    corners.assign(1, axis.vertices[edge.from]);
     axis.curve(edge).append_polyline(corners);
     corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
     if (!line_keeps_clearance(roadmap.index, corners, clearance, execution)) continue;

@@ -109,8 +109,6 @@ class AnyWorld : NotCopied {
 
   /// Of the plane, where states are points: what samples are drawn from.
   virtual Box box() const = 0;
-  /// Of that box; 0 where they are no points.
-  virtual double sampled_area() const = 0;
   /// Volume of the space that samples are drawn from, in the metric; 0 where the world doesn't tell.
   virtual double sampled_volume() const = 0;
   /// Dimensions of that space: fewer than the world's where some coordinates are always the same.
@@ -203,13 +201,10 @@ class WorldView final : public AnyWorldOf<W> {
     if constexpr (requires { world_.box(); }) return world_.box();
     return {};
   }
-  double sampled_area() const override {
-    if constexpr (requires { world_.sampled_area(); }) return world_.sampled_area();
-    return 0.0;
-  }
   double sampled_volume() const override {
     if constexpr (requires { world_.sampled_volume(); }) return world_.sampled_volume();
-    return sampled_area();
+    if constexpr (requires { world_.sampled_area(); }) return world_.sampled_area();
+    return 0.0;
   }
   std::size_t sampled_dimension() const override {
     if constexpr (requires { world_.sampled_dimension(); }) return world_.sampled_dimension();

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "core/base/items_by_key.hpp"
+#include "core/search/search.hpp"
 #include "parallel/asked_memory.hpp"
 
 namespace warren {
@@ -19,12 +21,6 @@ using Parts = std::span<const std::span<const Edge>>;
 constexpr unsigned smallest_block_bits = 14;  // a block's rows stay in a second-level cache
 constexpr std::size_t most_blocks = 2048;     // bounds the table of counts
 constexpr std::size_t smallest_run = std::size_t{1} << 17;
-
-/// A half of an edge on its way to the block of its row.
-struct RoutedHalf {
-  VertexId row;
-  VertexId target;
-};
 
 /// Is the part in order: from ascending, from < to? Checks its ends.
 bool is_ordered(std::size_t vertex_count, std::span<const Edge> part) {
@@ -189,7 +185,7 @@ class Assembly {
         next[block] += std::exchange(counts_of(s)[block], next[block]);
       }
     }
-    execution_.reserve(routed_begin_.back() * sizeof(RoutedHalf));
+    execution_.reserve(routed_begin_.back() * sizeof(Edge));
     routed_.resize(routed_begin_.back());
     touch_first(routed_, execution_);
     for_chunks(source_count(), 1, execution_.quiet(), [&](Range r) {
@@ -199,7 +195,7 @@ class Assembly {
       });
     });
   }
-  std::span<const RoutedHalf> routed_to(std::size_t block) const {
+  std::span<const Edge> routed_to(std::size_t block) const {
     return {routed_.data() + routed_begin_[block], routed_.data() + routed_begin_[block + 1]};
   }
 
@@ -216,7 +212,7 @@ class Assembly {
     std::vector<EdgeEnd> next(r.size() + 1, 0);  // row v's cursor is next[v - r.first]
     const auto first = static_cast<VertexId>(r.first);
     const auto size = static_cast<VertexId>(r.size());
-    for (const RoutedHalf& h : routed_to(block)) ++next[h.row - first];
+    for (const Edge& half : routed_to(block)) ++next[half.from - first];
     for_block_edges(block, [&](const Edge& e) {
       ++next[e.from - first];
       if (e.to - first < size) ++next[e.to - first];
@@ -226,7 +222,7 @@ class Assembly {
       offsets[r.first + i] = at;
       at += std::exchange(next[i], at);
     }
-    for (const RoutedHalf& h : routed_to(block)) targets[next[h.row - first]++] = h.target;
+    for (const Edge& half : routed_to(block)) targets[next[half.from - first]++] = half.to;
     for_block_edges(block, [&](const Edge& e) {
       targets[next[e.from - first]++] = e.to;
       if (e.to - first < size) targets[next[e.to - first]++] = e.from;
@@ -251,7 +247,7 @@ class Assembly {
   std::vector<std::uint32_t> counts_;        // by source, then block: halves sent; later the place of the next
   std::vector<std::uint64_t> ends_;          // edge ends of each block's rows; later the position of the first
   std::vector<std::uint32_t> routed_begin_;  // of each block in routed_
-  RawVector<RoutedHalf> routed_;
+  RawVector<Edge> routed_;                   // halves, from their row to their target
 };
 
 }  // namespace
@@ -282,6 +278,60 @@ Components components(const Graph& graph, const Execution& execution) {
     return count;
   });
   return result;
+}
+
+Components reached_and_reaching(const Graph& graph, VertexId from, VertexId to, const Execution& execution) {
+  Components parts;
+  execution.reserve(graph.vertex_count() * (sizeof(VertexId) + sizeof(double) + 2 * sizeof(VertexId)));
+  parts.label.assign(graph.vertex_count(), no_vertex);
+  const auto mark = [&](const Graph& along, VertexId root) {
+    SearchState state;
+    state.resize(along.vertex_count(), [&] { execution.check(); });
+    breadth_first(along, root, no_vertex, state, [&] { return execution.should_stop(); });
+    execution.check();
+    for (VertexId v = 0; v < along.vertex_count(); ++v) {
+      if (state.reached(v)) parts.label[v] = root;
+    }
+  };
+  mark(graph, from);
+  execution.reserve((graph.vertex_count() + 1) * 2 * sizeof(EdgeEnd) + graph.targets().size() * sizeof(VertexId));
+  const auto each_reversed = [&](const auto& visit) {
+    for (VertexId v = 0; v < graph.vertex_count(); ++v) {
+      execution.poll(v);
+      for (const VertexId w : graph.neighbours(v)) visit(w, v);
+    }
+  };
+  ItemsByKey rows = items_by_key(graph.vertex_count(), each_reversed, [&] { execution.check(); });
+  mark(Graph(std::move(rows.first), std::move(rows.items)), to);
+  return parts;
+}
+
+Graph one_way_graph(std::size_t vertex_count, std::span<const RawVector<Edge>> edges, const Execution& execution) {
+  std::uint64_t ends = 0;
+  for (const RawVector<Edge>& part : edges) ends += part.size();
+  if (ends >= std::numeric_limits<EdgeEnd>::max())
+    throw InputError("roadmap", "more than 2^32 - 1 edges; ask for fewer samples or neighbours");
+  execution.reserve((vertex_count + 1) * 2 * sizeof(EdgeEnd) + ends * sizeof(VertexId));
+  const auto each = [&](const auto& visit) {
+    for (const RawVector<Edge>& part : edges) {
+      for (std::size_t i = 0; i < part.size(); ++i) {
+        execution.poll(i);
+        visit(part[i].from, part[i].to);
+      }
+    }
+  };
+  ItemsByKey rows = items_by_key(vertex_count, each, [&] { execution.check(); });
+  for (std::size_t v = 0; v < vertex_count; ++v) {
+    execution.poll(v);
+    std::sort(rows.items.begin() + rows.first[v], rows.items.begin() + rows.first[v + 1]);
+  }
+  return {std::move(rows.first), std::move(rows.items)};
+}
+
+Graph free_part(const Graph& candidates, std::span<const std::uint64_t> edge_states, const Execution& execution) {
+  execution.reserve((candidates.vertex_count() + 1) * sizeof(EdgeEnd) + candidates.targets().size() * sizeof(VertexId));
+  const auto is_free = [&](std::size_t end) { return edge_state(edge_states, end) == EdgeState::free; };
+  return part_with_edges(candidates, is_free, candidates.vertex_count(), {}, execution);
 }
 
 }  // namespace warren

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Builds a Graph in parallel from the parts that the chunks of an earlier loop left behind. Rows are ascending and the
-// arrays are the same bits for any thread count.
+// arrays are the same bits for any thread count. And what is made of graphs: parts of them, and their components.
 //
 // Vertices are cut into blocks (a power of two, at most 2048 blocks). The longest run of leading parts in which `from`
 // ascends and from < to is cut at the block borders, so that a block's upper halves (from -> to) are its own run of
@@ -17,6 +17,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <utility>
 
@@ -44,6 +45,39 @@ Graph with_lengths(Graph graph, const Execution& execution, const Length& length
   });
   return std::move(graph).with_lengths(std::move(lengths));
 }
+
+/// The edges of a graph for which is_free(end), and more, which ascend and may join further vertices, each in the row
+/// of its begin.
+template <class IsFree>
+Graph part_with_edges(const Graph& all, const IsFree& is_free, std::size_t vertex_count, std::span<const Edge> more,
+                      const Execution& execution) {
+  RawVector<EdgeEnd> offsets(vertex_count + 1);
+  RawVector<VertexId> targets;
+  targets.reserve(all.targets().size() + more.size());
+  auto next = more.begin();
+  for (VertexId v = 0; v < vertex_count; ++v) {
+    execution.poll(v);
+    offsets[v] = static_cast<EdgeEnd>(targets.size());
+    if (v < all.vertex_count()) {
+      std::size_t end = all.first_end(v);
+      for (const VertexId w : all.neighbours(v)) {
+        if (is_free(end++)) targets.push_back(w);
+      }
+    }
+    for (; next != more.end() && next->from == v; ++next) targets.push_back(next->to);
+  }
+  offsets[vertex_count] = static_cast<EdgeEnd>(targets.size());
+  return {std::move(offsets), std::move(targets)};
+}
+
+/// The graph of edges that lead one way: each stands in the row of its begin alone, in any order.
+Graph one_way_graph(std::size_t vertex_count, std::span<const RawVector<Edge>> edges, const Execution& execution);
+/// The edges of a graph that are free.
+Graph free_part(const Graph& candidates, std::span<const std::uint64_t> edge_states, const Execution& execution);
+
+/// Of a graph whose edges lead from a row to its targets: what `from` reaches has its label, and what reaches `to` has
+/// that of `to`.
+Components reached_and_reaching(const Graph& graph, VertexId from, VertexId to, const Execution& execution);
 
 /// Connected components on all cores: label[v] is the smallest vertex of v's component, the same as by
 /// bench/plain_graph.hpp. O(E α(V)); memory: the labels.

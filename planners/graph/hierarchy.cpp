@@ -17,17 +17,10 @@
 
 namespace warren {
 std::size_t Hierarchy::arc_to(VertexId low, VertexId high) const {
-  constexpr std::size_t short_row = 16;  // counted without a branch an arc
-  const std::span<const HierarchyArc> arcs_up = row(low);
-  std::size_t before = 0;
-  if (arcs_up.size() <= short_row) {
-    for (const HierarchyArc& arc : arcs_up) before += static_cast<std::size_t>(arc.to < high);
-  } else {
-    const auto leads_below = [](const HierarchyArc& arc, VertexId other) { return arc.to < other; };
-    const auto found = std::lower_bound(arcs_up.begin(), arcs_up.end(), high, leads_below);
-    before = static_cast<std::size_t>(found - arcs_up.begin());
-  }
-  return before < arcs_up.size() && arcs_up[before].to == high ? first[low] + before : arcs.size();
+  const std::span<const HierarchyArc> up = row(low);
+  const auto found = std::ranges::lower_bound(up, high, {}, &HierarchyArc::to);
+  if (found == up.end() || found->to != high) return arcs.size();
+  return first[low] + static_cast<std::size_t>(found - up.begin());
 }
 
 void check_hierarchy(const Hierarchy& hierarchy, std::size_t vertex_count, const std::string& where,
@@ -104,14 +97,14 @@ void HierarchyClimb::reach(VertexId v, double length, VertexId parent) {
 }
 
 bool HierarchyQuery::search(std::span<const HierarchyEnd> start, std::span<const HierarchyEnd> goal, double limit) {
-  scratch_.sides[0].begin(start);
-  scratch_.sides[1].begin(goal);
+  scratch_[0].begin(start);
+  scratch_[1].begin(goal);
   best_ = limit;
   meeting_ = no_vertex;
   settled_ = 0;
   looks_ = 0;
   for (;;) {
-    const auto& [forward, backward] = scratch_.sides;
+    const auto& [forward, backward] = scratch_;
     const bool first = goes_on(forward);
     const bool second = goes_on(backward);
     if (!first && !second) return meeting_ != no_vertex;
@@ -121,11 +114,11 @@ bool HierarchyQuery::search(std::span<const HierarchyEnd> start, std::span<const
 }
 
 void HierarchyQuery::settle(std::size_t side) {
-  HierarchyClimb& climb = scratch_.sides[side];
+  HierarchyClimb& climb = scratch_[side];
   const QueueEntry next = climb.pop();
   const VertexId v = next.vertex;
   ++settled_;
-  const double whole = next.key + scratch_.sides[1 - side].length(v);
+  const double whole = next.key + scratch_[1 - side].length(v);
   if (whole < best_) {
     best_ = whole;
     meeting_ = v;
@@ -143,59 +136,33 @@ void HierarchyQuery::settle(std::size_t side) {
   }
 }
 
-/// An arc of the row of `low`.
-void HierarchyQuery::add_part(VertexId from, VertexId to, VertexId low, VertexId high) {
-  scratch_.parts.push_back({from, to, hierarchy_.arcs[hierarchy_.arc_to(low, high)].middle, 0});
-}
-
-/// All parts down to edges, those of one depth after each other: the memory is asked for all their rows before the
-/// first is read.
-void HierarchyQuery::take_apart() {
-  std::vector<PartOfWay>& parts = scratch_.parts;
-  // A shortest way passes no vertex twice.
-  const std::size_t most = std::min<std::size_t>(2 * hierarchy_.vertex_count() + parts.size(), no_vertex);
-  std::size_t first = 0;
-  for (std::size_t last = parts.size(); first < last; first = std::exchange(last, parts.size())) {
-    for (std::size_t i = first; i < last; ++i) {
-      if (parts[i].middle != no_vertex) __builtin_prefetch(hierarchy_.first.data() + parts[i].middle);
-    }
-    for (std::size_t i = first; i < last; ++i) {
-      if (parts[i].middle != no_vertex) __builtin_prefetch(hierarchy_.row(parts[i].middle).data());
-    }
-    for (std::size_t i = first; i < last; ++i) {
-      const auto [from, to, middle, none] = parts[i];
-      if (middle == no_vertex) continue;
-      parts[i].first = static_cast<std::uint32_t>(parts.size());
-      add_part(from, middle, middle, from);
-      add_part(middle, to, middle, to);
-      if (parts.size() % expansions_per_poll == 0) execution_.check();
-      if (parts.size() > most) throw InputError("roadmap", "the shortcuts of its index have no end; build it anew");
-    }
-  }
-}
-
 RawVector<VertexId> HierarchyQuery::path() {
-  const RawVector<VertexId> climb = scratch_.sides[0].back_from(meeting_);
-  const RawVector<VertexId> descent = scratch_.sides[1].back_from(meeting_);
-  scratch_.parts.clear();
-  for (std::size_t i = climb.size(); i-- > 1;) add_part(climb[i], climb[i - 1], climb[i], climb[i - 1]);
-  for (std::size_t i = 1; i < descent.size(); ++i) add_part(descent[i - 1], descent[i], descent[i], descent[i - 1]);
-  const auto arcs = static_cast<std::uint32_t>(scratch_.parts.size());
-  take_apart();
+  struct Part {
+    VertexId from;
+    VertexId to;
+    bool is_of_from;  // does the arc stand in the row of `from`?
+  };
+  const RawVector<VertexId> climb = scratch_[0].back_from(meeting_);
+  const RawVector<VertexId> descent = scratch_[1].back_from(meeting_);
+  std::vector<Part> todo;  // the next one last
+  for (std::size_t i = descent.size(); i-- > 1;) todo.push_back({descent[i - 1], descent[i], false});
+  for (std::size_t i = 1; i < climb.size(); ++i) todo.push_back({climb[i], climb[i - 1], true});
+  const std::size_t most = hierarchy_.vertex_count();  // a shortest way passes no vertex twice
   RawVector<VertexId> way;
   way.push_back(climb.back());
-  std::vector<std::uint32_t> todo;  // parts
-  for (std::uint32_t arc = 0; arc < arcs; ++arc) {
-    for (todo.assign(1, arc); !todo.empty();) {
-      const PartOfWay& next = scratch_.parts[todo.back()];
-      todo.pop_back();
-      if (next.middle == no_vertex) {
-        way.push_back(next.to);
-      } else {
-        todo.push_back(next.first + 1);
-        todo.push_back(next.first);
-      }
+  for (std::size_t opened = 0; !todo.empty();) {
+    const auto [from, to, is_of_from] = todo.back();
+    todo.pop_back();
+    const std::size_t arc = is_of_from ? hierarchy_.arc_to(from, to) : hierarchy_.arc_to(to, from);
+    const VertexId middle = hierarchy_.arcs[arc].middle;
+    if (middle == no_vertex) {
+      way.push_back(to);
+      continue;
     }
+    todo.push_back({middle, to, true});
+    todo.push_back({from, middle, false});
+    if (++opened % expansions_per_poll == 0) execution_.check();
+    if (opened > most) throw InputError("roadmap", "the shortcuts of its index have no end; build it anew");
   }
   return way;
 }
@@ -246,41 +213,6 @@ struct Shortcut {
 
 constexpr std::size_t shrinking_grain = std::size_t{1} << 12;
 
-/// Writes the rows of one thread's vertices.
-class RowMaker {
- public:
-  /// added: from, to: of the graph before; each shortcut both ways. by_row: by `from`.
-  RowMaker(const ShrinkingGraph& before, std::span<const std::uint8_t> taken, std::span<const Shortcut> added,
-           const ItemsByKey& by_row)
-      : before_(before), taken_(taken), added_(added), by_row_(by_row) {}
-
-  /// Arcs to vertices of the graph before, ascending, one a vertex; of two that are as long the older one.
-  std::span<const HierarchyArc> row(VertexId v) {
-    old_.clear();
-    fresh_.clear();
-    row_.clear();
-    std::ranges::copy_if(before_.row(v), std::back_inserter(old_),
-                         [&](const HierarchyArc& arc) { return taken_[arc.to] == 0; });
-    for (const std::uint32_t i : by_row_.of(v)) fresh_.push_back({added_[i].to, added_[i].middle, added_[i].length});
-    std::ranges::sort(fresh_, {}, [](const HierarchyArc& a) { return std::tuple(a.to, a.length, a.middle); });
-    std::ranges::merge(old_, fresh_, std::back_inserter(row_), {}, by_length, by_length);
-    row_.erase(std::unique(row_.begin(), row_.end(), [](const auto& a, const auto& b) { return a.to == b.to; }),
-               row_.end());
-    return row_;
-  }
-
- private:
-  static std::pair<VertexId, double> by_length(const HierarchyArc& arc) { return {arc.to, arc.length}; }
-
-  const ShrinkingGraph& before_;
-  std::span<const std::uint8_t> taken_;
-  std::span<const Shortcut> added_;
-  const ItemsByKey& by_row_;
-  std::vector<HierarchyArc> old_;
-  std::vector<HierarchyArc> fresh_;
-  std::vector<HierarchyArc> row_;
-};
-
 /// Turns how many arcs each row has, and a zero behind the last, into where the rows begin; returns their sum. Throws
 /// Stopped, and InputError for 2^32 arcs or more.
 std::size_t scan_rows(RawVector<EdgeEnd>& counts, const Execution& execution) {
@@ -324,17 +256,26 @@ ShrinkingGraph shrunk(ShrinkingGraph before, std::span<const std::uint8_t> taken
   after.first.resize(after.size() + 1);
   after.first.back() = 0;
   std::vector<RawVector<HierarchyArc>> rows(chunk_count(n, shrinking_grain));
+  const auto by_length = [](const HierarchyArc& arc) { return std::pair(arc.to, arc.length); };
   for_chunks(n, shrinking_grain, execution, [&](Range r) {
-    RowMaker maker(before, taken, added, by_row);
+    std::vector<HierarchyArc> old;
+    std::vector<HierarchyArc> fresh;
     RawVector<HierarchyArc>& arcs = rows[r.first / shrinking_grain];
-    for (std::size_t i = r.first; i < r.last; ++i) {
-      const auto v = static_cast<VertexId>(i);
+    for (auto v = static_cast<VertexId>(r.first); v < r.last; ++v) {
       if (taken[v] != 0) continue;
+      old.clear();
+      fresh.clear();
+      std::ranges::copy_if(before.row(v), std::back_inserter(old), [&](const auto& arc) { return taken[arc.to] == 0; });
+      for (const std::uint32_t i : by_row.of(v)) fresh.push_back({added[i].to, added[i].middle, added[i].length});
+      std::ranges::sort(fresh, {}, [](const HierarchyArc& a) { return std::tuple(a.to, a.length, a.middle); });
+      const std::size_t first = arcs.size();
+      std::ranges::merge(old, fresh, std::back_inserter(arcs), {}, by_length, by_length);  // as long: the older first
+      const auto row = arcs.begin() + static_cast<std::ptrdiff_t>(first);
+      arcs.erase(std::unique(row, arcs.end(), [](const auto& a, const auto& b) { return a.to == b.to; }), arcs.end());
       after.vertex[number[v]] = before.vertex[v];
-      const auto row = maker.row(v);
-      after.first[number[v]] = static_cast<EdgeEnd>(row.size());
-      for (const HierarchyArc& arc : row) arcs.push_back({number[arc.to], arc.middle, arc.length});
+      after.first[number[v]] = static_cast<EdgeEnd>(arcs.size() - first);
     }
+    for (HierarchyArc& arc : arcs) arc.to = number[arc.to];
   });
   before = {};
   after.arc.resize(scan_rows(after.first, execution));
@@ -540,31 +481,32 @@ void ContractionRounds::next_round() {
   const RawVector<std::uint8_t> taken = choose();
   const std::size_t chunks = chunk_count(left_.size(), witness_grain);
   std::vector<RawVector<Shortcut>> shortcuts(chunks);
-  std::vector<TakenOut> gone(chunks);
+  std::vector<ShrinkingGraph> gone(chunks);
   for_chunks(left_.size(), witness_grain, execution_, [&](Range r) {
     WitnessSearch witness(left_, taken, execution_);
-    TakenOut& out = gone[r.first / witness_grain];
+    ShrinkingGraph& out = gone[r.first / witness_grain];
+    out.first.push_back(0);
     for (std::size_t i = r.first; i < r.last; ++i) {
       if (taken[i] == 0) continue;
       const auto v = static_cast<VertexId>(i);
       out.vertex.push_back(left_.vertex[v]);
-      out.arcs.push_back(static_cast<EdgeEnd>(left_.row(v).size()));
       for (const HierarchyArc& a : left_.row(v))
         push_asked(out.arc, {left_.vertex[a.to], a.middle, a.length}, execution_);
+      out.first.push_back(static_cast<EdgeEnd>(out.arc.size()));
       witness.append_shortcuts(v, shortcuts[r.first / witness_grain]);
     }
   });
-  for (const TakenOut& part : gone) {
-    part.for_each_row([&](VertexId v, std::span<const HierarchyArc> row) {
-      const std::uint32_t next = level_[v] + 1;
-      for (const HierarchyArc& arc : row) level_[arc.to] = std::max(level_[arc.to], next);
-    });
+  for (const ShrinkingGraph& part : gone) {
+    for (VertexId v = 0; v < part.size(); ++v) {
+      const std::uint32_t next = level_[part.vertex[v]] + 1;
+      for (const HierarchyArc& arc : part.row(v)) level_[arc.to] = std::max(level_[arc.to], next);
+    }
   }
   const RawVector<Shortcut> added = joined_parts(shortcuts, execution_);
   shortcuts.clear();
   left_ = shrunk(std::move(left_), taken, added, execution_);
-  for (TakenOut& part : gone) {
-    if (!part.vertex.empty()) gone_.push_back(std::move(part));
+  for (ShrinkingGraph& part : gone) {
+    if (part.size() > 0) gone_.push_back(std::move(part));
   }
 }
 
@@ -574,16 +516,17 @@ Hierarchy ContractionRounds::hierarchy() {
   all.first.resize(level_.size() + 1);
   all.first.back() = 0;
   for_each_index(gone_.size(), 64, execution_, [&](std::size_t i) {
-    gone_[i].for_each_row(
-        [&](VertexId v, std::span<const HierarchyArc> row) { all.first[v] = static_cast<EdgeEnd>(row.size()); });
+    const ShrinkingGraph& part = gone_[i];
+    for (VertexId v = 0; v < part.size(); ++v) all.first[part.vertex[v]] = part.first[v + 1] - part.first[v];
   });
   const std::size_t arcs = scan_rows(all.first, execution_);
   execution_.reserve(arcs * sizeof(HierarchyArc));
   all.arcs.resize(arcs);
   for_each_index(gone_.size(), 64, execution_, [&](std::size_t i) {
-    gone_[i].for_each_row([&](VertexId v, std::span<const HierarchyArc> row) {
-      std::copy(row.begin(), row.end(), all.arcs.begin() + all.first[v]);
-    });
+    const ShrinkingGraph& part = gone_[i];
+    for (VertexId v = 0; v < part.size(); ++v) {
+      std::ranges::copy(part.row(v), all.arcs.begin() + all.first[part.vertex[v]]);
+    }
   });
   return all;
 }

@@ -98,28 +98,12 @@ class ContractionRounds {
   Hierarchy hierarchy();
 
  private:
-  /// What a chunk of vertices leaves behind: those that went, with their arcs.
-  struct TakenOut {
-    RawVector<VertexId> vertex;
-    RawVector<EdgeEnd> arcs;      // of each
-    RawVector<HierarchyArc> arc;  // to: of the whole graph, ascending in each row
-
-    /// Calls visit(vertex, its arcs) for each.
-    template <class Visit>
-    void for_each_row(const Visit& visit) const {
-      const HierarchyArc* next = arc.data();
-      for (std::size_t i = 0; i < vertex.size(); ++i) {
-        visit(vertex[i], std::span(next, arcs[i]));
-        next += arcs[i];
-      }
-    }
-  };
   RawVector<std::uint8_t> choose() const;
 
   const Execution& execution_;
   ShrinkingGraph left_;
-  RawVector<std::uint32_t> level_;  // of a vertex: 1 more than the highest of those that went beside it
-  std::vector<TakenOut> gone_;
+  RawVector<std::uint32_t> level_;    // of a vertex: 1 more than the highest of those that went beside it
+  std::vector<ShrinkingGraph> gone_;  // of each chunk those that went, with their arcs; to: of the whole graph
 };
 
 /// A vertex that start or goal is joined to, and how far it is.
@@ -178,19 +162,8 @@ class HierarchyClimb {
   LazyHeap queue_;                   // with entries of ways that were longer
 };
 
-/// An edge of a way, or an arc that stands for two of them.
-struct PartOfWay {
-  VertexId from;
-  VertexId to;
-  VertexId middle;      // no_vertex: an edge
-  std::uint32_t first;  // of its two parts, which follow each other
-};
-
 /// What one thread keeps from one question to the next: as much as the largest of them touched.
-struct HierarchyScratch {
-  std::array<HierarchyClimb, 2> sides;
-  std::vector<PartOfWay> parts;
-};
+using HierarchyScratch = std::array<HierarchyClimb, 2>;
 
 /// One thread's. Refers to all that it is given.
 class HierarchyQuery {
@@ -210,8 +183,6 @@ class HierarchyQuery {
  private:
   bool goes_on(const HierarchyClimb& side) const { return !side.empty() && side.top().key < best_; }
   void settle(std::size_t side);
-  void add_part(VertexId from, VertexId to, VertexId low, VertexId high);
-  void take_apart();
 
   const Hierarchy& hierarchy_;
   HierarchyScratch& scratch_;

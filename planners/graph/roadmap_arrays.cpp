@@ -53,14 +53,8 @@ class PartsCheck {
   }
   void check_states() const {
     const auto states = parts_.states;
-    const std::size_t bad = first_in_chunks(states.size(), parts_grain, execution_, [&](Range r) {
-      const auto part = states.subspan(r.first, r.size());
-      bool all = true;  // without a branch an element: memory speed
-      for (const double x : part) all &= std::abs(x) <= largest_coordinate;
-      if (all) return r.last;
-      const auto is_bad = [](double x) { return !(std::abs(x) <= largest_coordinate); };
-      return r.first + static_cast<std::size_t>(std::find_if(part.begin(), part.end(), is_bad) - part.begin());
-    });
+    const std::size_t bad = first_that(states.size(), parts_grain, execution_,
+                                       [&](std::size_t i) { return !(std::abs(states[i]) <= largest_coordinate); });
     if (bad != states.size()) {
       fail("states[" + number(bad) + "]", "expected a finite number of at most 1e60", std::to_string(states[bad]));
     }

@@ -67,20 +67,19 @@ struct RoadmapArrays {
 /// Points of the plane, at(v), and these edges, all of them free; no components yet. Throws Stopped.
 template <class At>
 RoadmapArrays free_arrays(const At& at, Graph graph, const Execution& execution) {
-  constexpr std::size_t polled = std::size_t{1} << 14;
   const std::size_t n = graph.vertex_count();
   const std::size_t ends = graph.targets().size();
   execution.reserve(2 * n * sizeof(double) + ends / 4);
   RoadmapArrays arrays;
   arrays.states.reserve(2 * n);
   for (VertexId v = 0; v < n; ++v) {
-    if (v % polled == 0) execution.check();
+    execution.poll(v);
     const Vec2 p = at(v);
     arrays.states.insert(arrays.states.end(), {p.x, p.y});
   }
   arrays.edge_states.assign(edge_state_words(ends), 0);
   for (std::size_t end = 0; end < ends; ++end) {
-    if (end % polled == 0) execution.check();
+    execution.poll(end);
     set_edge_state(arrays.edge_states, end, EdgeState::free);
   }
   arrays.candidates = std::move(graph);
@@ -91,7 +90,6 @@ RoadmapArrays free_arrays(const At& at, Graph graph, const Execution& execution)
 /// an edge, and an answer only sets bits of an edge that has none: so the order of the threads does not matter.
 class SharedEdgeStates {
  public:
-  SharedEdgeStates() = default;
   /// Copies them: two bits an edge.
   explicit SharedEdgeStates(std::span<const std::uint64_t> words) : words_(words.begin(), words.end()) {}
 

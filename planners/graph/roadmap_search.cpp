@@ -101,15 +101,6 @@ std::vector<Edge> expanded_tree(const TwiceReducedGraphView& reduced, const std:
   return tree;
 }
 
-/// Breadth or depth first.
-SearchResult search_blindly(const Graph& graph, const RoadmapSearch& asked) {
-  SearchState state;
-  SearchResult found = search_blindly(asked.search, graph, asked.start, asked.goal, state, asked.execution);
-  if (found.status == SearchStatus::stopped) asked.execution.check();
-  if (asked.tree != nullptr) *asked.tree = search_tree(state);
-  return found;
-}
-
 }  // namespace
 
 std::vector<Edge> search_tree(const SearchState& state) {
@@ -148,8 +139,12 @@ std::optional<TwiceReducedGraphView> reduced_for_search(const Graph& graph, cons
 }
 
 SearchResult search_roadmap(const Graph& graph, const RoadmapSearch& asked) {
-  if (!has_queue(asked.search)) return search_blindly(graph, asked);
-  return search_best(graph, asked.start, asked.goal, asked.estimate, asked);
+  if (has_queue(asked.search)) return search_best(graph, asked.start, asked.goal, asked.estimate, asked);
+  SearchState state;
+  SearchResult found = search_blindly(asked.search, graph, asked.start, asked.goal, state, asked.execution);
+  if (found.status == SearchStatus::stopped) asked.execution.check();
+  if (asked.tree != nullptr) *asked.tree = search_tree(state);
+  return found;
 }
 
 SearchResult search_roadmap(const TwiceReducedGraphView& reduced, const RoadmapSearch& asked) {
@@ -243,7 +238,7 @@ void KeyCoverView::peel_across(VertexId seed, const Execution& execution) {
     }
     if (std::atomic_ref(left_[v]).exchange(0) == 0) return;
     v = last;
-    if (++steps % detail::steps_per_poll == 0) execution.check();
+    execution.poll(++steps);
   }
 }
 
@@ -297,7 +292,6 @@ ReducedGraphView::ReducedGraphView(KeyCoverView cover, const std::vector<Part>& 
 }
 
 RawVector<VertexId> ReducedGraphView::expand(std::span<const VertexId> keys, const Execution& execution) const {
-  if (keys.empty()) return {};
   constexpr std::size_t keys_a_part = 1024;
   const Execution quiet = execution.quiet();
   const auto parts = parts_of_chunks(keys.size(), keys_a_part, quiet, [&](Range r) {
@@ -309,7 +303,7 @@ RawVector<VertexId> ReducedGraphView::expand(std::span<const VertexId> keys, con
       VertexId before = vertex_of(keys[i - 1]);
       VertexId v = via_[reduced_.first_end(keys[i - 1]) + at];
       while (!cover_.is_key(v)) {
-        if (part.size() % detail::steps_per_poll == 0) execution.check();
+        execution.poll(part.size());
         part.push_back(v);
         v = cover_.next_on_chain(std::exchange(before, v), v);
       }

@@ -117,7 +117,6 @@ class ReducedGraphView {
   VertexId vertex_of(VertexId key) const { return vertices_[key]; }
   /// The key with this vertex, which must be a key: start and goal always are.
   VertexId key_of(VertexId vertex) const { return cover_.rank(vertex); }
-  bool is_key(VertexId vertex) const { return cover_.is_key(vertex); }
   /// Components of the graph that no key stands for. Only where peeling stays within blocks.
   std::size_t keyless_components() const { return cover_.peeled_trees() + cycles_; }
   /// A path over keys as the path over vertices that it stands for. O(path).
@@ -133,7 +132,6 @@ class ReducedGraphView {
 
 namespace detail {
 inline constexpr std::size_t reduce_grain = std::size_t{1} << 14;  // a multiple of 64: key words are not shared
-inline constexpr std::size_t steps_per_poll = std::size_t{1} << 18;
 
 /// A chain from one key to another: the keys' neighbours on it, and its length.
 struct ChainEnds {
@@ -149,7 +147,7 @@ ChainEnds follow_chain(const KeyCoverView& cover, VertexId key, VertexId via, co
   VertexId before = key;
   VertexId at = via;
   for (std::size_t steps = 1; !cover.is_key(at); ++steps) {
-    if (steps % steps_per_poll == 0) execution.check();
+    execution.poll(steps);
     const VertexId next = next_on_chain(before, at);
     sum += length(at, next);
     before = at;

@@ -19,17 +19,6 @@ StepRule rule_of(Diagonal diagonal) { return diagonal == Diagonal::none ? StepRu
 
 namespace {
 
-Bitmap blocked_transposed(const FreeCells& cells, const Execution& execution) {
-  Bitmap blocked(cells.height(), cells.width());
-  for (std::uint32_t y = 0; y < cells.height(); ++y) {
-    if (y % 16 == 0) execution.check();
-    for (std::uint32_t x = 0; x < cells.width(); ++x) {
-      if (!cells.is_free(cells.number({x, y}))) blocked.set(y, x);
-    }
-  }
-  return blocked;
-}
-
 /// The first turn or the goal on the row to the right of v, before a blocked cell.
 VertexId scan_up(const FreeCells& cells, VertexId v, VertexId goal) {
   const VertexId stride = cells.stride();
@@ -159,9 +148,9 @@ SearchResult breadth_first_over(const FreeCells& cells, const Steps& steps, Vert
 /// Refers to the cells, which must outlive it. Immutable; any number of threads may read.
 class JumpPoints {
  public:
-  /// O(cells). Throws Stopped.
-  JumpPoints(const FreeCells& cells, const Execution& execution)
-      : rows_(cells), columns_(blocked_transposed(cells, execution)) {}
+  /// `blocked`: the map of the cells. O(cells). Throws Stopped.
+  JumpPoints(const FreeCells& cells, const Bitmap& blocked, const Execution& execution)
+      : rows_(cells), columns_(transposed(blocked, execution)) {}
 
   /// Calls visit(w, length) for the jump points after v, which was reached from `parent` (no_vertex: it is the start).
   template <class Visit>
@@ -284,7 +273,7 @@ double cost_of(const std::vector<Cell>& cells, Diagonal diagonal) {
 }
 
 struct GridSearch::Scratch {
-  explicit Scratch(const Bitmap& blocked) : cells(blocked) {}
+  explicit Scratch(const Bitmap& map) : blocked(map), cells(map) {}
 
   SearchResult best_first_search(VertexId start, VertexId goal, const GridSearchOptions& options,
                                  const Execution& execution) {
@@ -292,15 +281,15 @@ struct GridSearch::Scratch {
     const Steps steps(cells, rule_of(options.diagonal), options.diagonal);
     if (options.method == GridMethod::bfs) return breadth_first_over(cells, steps, start, goal, execution);
     prepare(execution);
-    if (options.method == GridMethod::dijkstra) {
-      return best_first(
-          start, goal, steps, [](VertexId) { return 0.0; }, queue, state, should_stop);
-    }
-    return best_first(start, goal, steps, free_distance_to(goal, cells, options.diagonal), queue, state, should_stop);
+    const bool informed = options.method == GridMethod::astar;
+    const auto remaining = [&, free = free_distance_to(goal, cells, options.diagonal)](VertexId v) {
+      return informed ? free(v) : 0.0;
+    };
+    return best_first(start, goal, steps, remaining, queue, state, should_stop);
   }
 
   SearchResult jump_point_search(VertexId start, VertexId goal, const Execution& execution) {
-    if (!jumps) jumps.emplace(cells, execution);
+    if (!jumps) jumps.emplace(cells, blocked, execution);
     prepare(execution);
     const auto successors = [&](VertexId v, const auto& visit) { jumps->visit(v, state.parent(v), goal, visit); };
     SearchResult result = best_first(start, goal, successors, free_distance_to(goal, cells, Diagonal::sqrt2), queue,
@@ -316,6 +305,7 @@ struct GridSearch::Scratch {
     queue.clear();
   }
 
+  Bitmap blocked;
   FreeCells cells;
   SearchState state;
   BucketQueue queue;
@@ -324,8 +314,6 @@ struct GridSearch::Scratch {
 
 GridSearch::GridSearch(const Bitmap& blocked) : scratch_(std::make_unique<Scratch>(blocked)) {}
 GridSearch::~GridSearch() = default;
-GridSearch::GridSearch(GridSearch&&) noexcept = default;
-GridSearch& GridSearch::operator=(GridSearch&&) noexcept = default;
 
 GridPath GridSearch::find(Cell start, Cell goal, const GridSearchOptions& options, const Execution& execution) {
   const FreeCells& cells = scratch_->cells;

@@ -4,7 +4,7 @@
 // point search (planners/grid/grid_search). Moving AI's rule: a diagonal step needs both cells beside it free, so
 // a point never touches the closed square of a blocked cell.
 //
-// One bit a cell for the map; 12 bytes a cell for A* and Dijkstra, allocated at the first such search and cleared by
+// Two bits a cell for the map; 12 bytes a cell for A* and Dijkstra, allocated at the first such search and cleared by
 // blocks of what the last one touched, so that thousands of searches on one map cost what they expand; 1 byte a cell
 // for breadth-first search.
 #pragma once
@@ -55,10 +55,6 @@ class GridSearch {
   /// blocked: set bits are blocked; what lies outside is blocked. Throws InputError for maps of about 2^32 cells.
   explicit GridSearch(const Bitmap& blocked);
   ~GridSearch();
-  /// Leaves the other without its map.
-  GridSearch(GridSearch&&) noexcept;
-  /// Leaves the other without its map.
-  GridSearch& operator=(GridSearch&&) noexcept;
 
   /// Throws InputError for cells outside the map and for jump points with other diagonals than sqrt2, Stopped.
   GridPath find(Cell start, Cell goal, const GridSearchOptions& options, const Execution& execution);

@@ -18,6 +18,8 @@
 namespace warren {
 namespace {
 
+constexpr std::size_t bytes_a_label = 12;  // of a search: cost and parent
+
 /// The layers as a search asks for them.
 class LayerSteps {
  public:
@@ -38,11 +40,33 @@ class LayerSteps {
     }
   }
 
-  double cost(unsigned step) const { return costs_[step]; }
-  const std::vector<unsigned>& steps() const { return steps_; }
-  const std::vector<unsigned>& steps_at(std::uint32_t k) const { return face_motion_ ? steps_facing_[k] : steps_; }
+  /// Calls visit(step, cost) for each step that there is at some heading.
+  template <class Visit>
+  void for_each_step(const Visit& visit) const {
+    for (const unsigned step : steps_) visit(step, costs_[step]);
+  }
+  /// Calls visit(state, cost) for each state that one step or turn leads to.
+  template <class Visit>
+  void for_each_next(const LayerState& s, const Visit& visit) const {
+    for (const unsigned step : face_motion_ ? steps_facing_[s.k] : steps_) {
+      if (may_step(s, step)) visit(LayerState{s.i + cell_steps[step][0], s.j + cell_steps[step][1], s.k}, costs_[step]);
+    }
+    if (layers_.angles < 2) return;
+    for (const std::uint32_t k : {s.k == 0 ? layers_.angles - 1 : s.k - 1, next(s.k)}) {
+      if (may_turn(s, k)) visit(LayerState{s.i, s.j, k}, turn_cost_);
+    }
+  }
+  double turn_cost() const { return turn_cost_; }
+  const HeadingLayers& layers() const { return layers_; }
 
-  /// May the body go from s by this step?
+ private:
+  struct Forward {
+    unsigned step;  // of HeadingLayers::steps
+    bool backwards;
+  };
+  static constexpr std::array<Forward, 8> forward_of{
+      {{2, true}, {1, true}, {3, true}, {0, true}, {0, false}, {3, false}, {1, false}, {2, false}}};
+
   bool may_step(const LayerState& s, unsigned step) const {
     const auto [dx, dy] = cell_steps[step];
     const auto i = static_cast<std::uint32_t>(static_cast<std::int64_t>(s.i) + dx);  // wraps below 0: beyond the width
@@ -60,17 +84,6 @@ class LayerSteps {
     return !layers_.bitmaps[layers_.turning[lower]].test(s.i, s.j);
   }
   std::uint32_t next(std::uint32_t k) const { return k + 1 == layers_.angles ? 0 : k + 1; }
-  std::uint32_t previous(std::uint32_t k) const { return k == 0 ? layers_.angles - 1 : k - 1; }
-  double turn_cost() const { return turn_cost_; }
-  const HeadingLayers& layers() const { return layers_; }
-
- private:
-  struct Forward {
-    unsigned step;  // of HeadingLayers::steps
-    bool backwards;
-  };
-  static constexpr std::array<Forward, 8> forward_of{
-      {{2, true}, {1, true}, {3, true}, {0, true}, {0, false}, {3, false}, {1, false}, {2, false}}};
 
   const HeadingLayers& layers_;
   bool face_motion_;
@@ -80,11 +93,10 @@ class LayerSteps {
   std::vector<std::vector<unsigned>> steps_facing_;  // by heading: those of its direction
 };
 
-/// What is left to pay at least from each position: a Dijkstra from the goals over positions free at some heading.
-RawVector<double> plane_costs(const LayerSteps& steps, std::span<const LayerEnd> goals, const Execution& execution) {
+/// What is left to pay at least from each position, j width + i: a Dijkstra from a vertex behind the goals over
+/// positions free at some heading.
+SearchState plane_costs(const LayerSteps& steps, std::span<const LayerEnd> goals, const Execution& execution) {
   const HeadingLayers& layers = steps.layers();
-  const std::size_t positions = std::size_t{layers.width} * layers.height;
-  execution.reserve(positions * sizeof(double));
   Bitmap free(layers.width, layers.height);
   for (std::uint32_t k = 0; k < layers.angles; ++k) {
     execution.check();
@@ -95,30 +107,27 @@ RawVector<double> plane_costs(const LayerSteps& steps, std::span<const LayerEnd>
       for (std::size_t w = 0; w < to.size(); ++w) to[w] |= ~from[w];
     }
   }
-  RawVector<double> costs;
-  assign_polled(costs, positions, std::numeric_limits<double>::infinity(), [&] { execution.check(); });
+  const auto behind_goals = static_cast<VertexId>(free.size());
+  execution.reserve((free.size() + 1) * bytes_a_label);
+  SearchState state;
+  state.resize(free.size() + 1, [&] { execution.check(); });
   BucketQueue queue;
-  const auto reach = [&](std::uint32_t i, std::uint32_t j, double cost) {
-    const std::size_t v = std::size_t{j} * layers.width + i;
-    if (!free.test(i, j) || cost >= costs[v]) return;
-    costs[v] = cost;
-    queue.push(static_cast<VertexId>(v), cost);
-  };
-  for (const LayerEnd& goal : goals) reach(goal.state.i, goal.state.j, goal.cost);
-  for (std::uint64_t popped = 1; !queue.empty(); ++popped) {
-    const QueueEntry top = queue.pop();
-    if (popped % expansions_per_poll == 0) execution.check();
-    if (top.key > costs[top.vertex]) continue;
-    const std::int64_t i = top.vertex % layers.width;
-    const std::int64_t j = top.vertex / layers.width;
-    for (const unsigned s : steps.steps()) {
-      const std::int64_t to_i = i - cell_steps[s][0];
-      const std::int64_t to_j = j - cell_steps[s][1];
-      if (to_i < 0 || to_j < 0 || to_i >= layers.width || to_j >= layers.height) continue;
-      reach(static_cast<std::uint32_t>(to_i), static_cast<std::uint32_t>(to_j), top.key + steps.cost(s));
+  const auto neighbours = [&](VertexId v, const auto& visit) {
+    if (v == behind_goals) {
+      for (const LayerEnd& goal : goals) visit(goal.state.j * layers.width + goal.state.i, goal.cost);
+      return;
     }
-  }
-  return costs;
+    steps.for_each_step([&](unsigned step, double cost) {
+      const std::int64_t i = std::int64_t{v % layers.width} - cell_steps[step][0];
+      const std::int64_t j = std::int64_t{v / layers.width} - cell_steps[step][1];
+      if (free.holds(i, j)) visit(static_cast<VertexId>(j * layers.width + i), cost);
+    });
+  };
+  const auto nothing_left = [](VertexId) { return 0.0; };
+  const SearchResult all = best_first(behind_goals, no_vertex, neighbours, nothing_left, queue, state,
+                                      [&] { return execution.should_stop(); });
+  if (all.status == SearchStatus::stopped) execution.check();
+  return state;
 }
 
 /// One search: numbers of states, neighbours, heuristic.
@@ -146,8 +155,7 @@ class LayerAStar {
   }
 
   SearchResult find() {
-    constexpr std::size_t bytes_a_state = 12;
-    execution_.reserve((layers_.states() + 2) * bytes_a_state);
+    execution_.reserve((layers_.states() + 2) * bytes_a_label);
     SearchState state;
     state.resize(layers_.states() + 2, [&] { execution_.check(); });
     BucketQueue queue(steps_.turn_cost());
@@ -196,29 +204,21 @@ class LayerAStar {
       const auto goal = std::lower_bound(goals_.begin(), goals_.end(), Goal{v, 0.0});
       if (goal->first == v) visit(behind_goals(), goal->second);
     }
-    for (const unsigned step : steps_.steps_at(s.k)) {
-      if (!steps_.may_step(s, step)) continue;
-      const auto position = static_cast<std::int64_t>(v / layers_.angles) +
-                            cell_steps[step][1] * static_cast<std::int64_t>(layers_.width) + cell_steps[step][0];
-      if (std::isinf(plane_costs_[static_cast<std::size_t>(position)])) continue;  // no way on from there
-      visit(static_cast<VertexId>(position * layers_.angles + s.k), steps_.cost(step));
-    }
-    if (layers_.angles < 2) return;
-    for (const std::uint32_t k : {steps_.previous(s.k), steps_.next(s.k)}) {
-      if (steps_.may_turn(s, k)) visit(v - s.k + k, steps_.turn_cost());
-    }
+    steps_.for_each_next(s, [&](const LayerState& to, double cost) {
+      if (plane_costs_.reached(to.j * layers_.width + to.i)) visit(number(to), cost);  // else there is no way on
+    });
   }
 
   double at_least(VertexId v) const {
     if (v >= layers_.states()) return 0.0;  // of the goal; and of the start, which is expanded first
-    return plane_costs_[v / layers_.angles] + turn_costs_[v % layers_.angles];
+    return plane_costs_.g(v / layers_.angles) + turn_costs_[v % layers_.angles];
   }
 
   const LayerSteps& steps_;
   const HeadingLayers& layers_;
   std::span<const LayerEnd> starts_;
   const Execution& execution_;
-  RawVector<double> plane_costs_;
+  SearchState plane_costs_;
   std::vector<double> turn_costs_;  // to the nearest goal's heading, from each
   std::vector<Goal> goals_;         // by number
 };
@@ -312,13 +312,7 @@ void for_each_reached(const HeadingLayers& layers, std::span<const LayerEnd> sta
     const LayerState s = open.back();
     open.pop_back();
     visit(s);
-    for (const unsigned step : steps.steps_at(s.k)) {
-      if (steps.may_step(s, step)) meet({s.i + cell_steps[step][0], s.j + cell_steps[step][1], s.k});
-    }
-    if (layers.angles < 2) continue;
-    for (const std::uint32_t k : {steps.previous(s.k), steps.next(s.k)}) {
-      if (steps.may_turn(s, k)) meet({s.i, s.j, k});
-    }
+    steps.for_each_next(s, [&](const LayerState& next, double) { meet(next); });
   }
 }
 

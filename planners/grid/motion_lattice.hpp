@@ -34,6 +34,7 @@
 #include "core/base/solution.hpp"
 #include "core/run/execution.hpp"
 #include "parallel/asked_memory.hpp"
+#include "parallel/sort.hpp"
 #include "spatial/maps/free_cells.hpp"
 
 namespace warren {
@@ -308,7 +309,7 @@ class LatticeSearch {
     for (const Entry& entry : open_) {
       if ((entry.node & start_flag) == 0 && is_open(entry.node)) push_asked(left, entry.node, execution_);
     }
-    std::sort(left.begin(), left.end());
+    polled_sort(left.begin(), left.end(), execution_);
     left.erase(std::unique(left.begin(), left.end()), left.end());
     ++round_;
     open_.clear();
@@ -356,8 +357,7 @@ class LatticeSearch {
   void shoot_from_all() {
     for (std::uint32_t number = 0; number < nodes_.size(); ++number) {
       execution_.check();  // each time: a long curve takes long
-      if (nodes_[number].cost == unmet) continue;
-      shoot(number, cell_of(number), heading_of(number), gear_of(number));
+      if (nodes_[number].cost != unmet) shoot(number);
     }
   }
   /// The curve to a start's state is checked when it is the next, as few are.
@@ -386,8 +386,7 @@ class LatticeSearch {
     const std::int8_t gear = gear_of(number);
     const std::uint64_t cost = nodes_[number].cost;
     ++since_shot_;
-    if (space_.joins(cell) || since_shot_ > space_.shot_pause(nodes_[number].at_least))
-      shoot(number, cell, heading, gear);
+    if (space_.joins(cell) || since_shot_ > space_.shot_pause(nodes_[number].at_least)) shoot(number);
     const auto motions = space_.motions_from(heading);
     for (std::size_t m = 0; m < motions.size(); ++m) {
       const auto& motion = motions[m];
@@ -406,11 +405,12 @@ class LatticeSearch {
       arrive(next, there + space_.extra(cell, heading, motion), number, static_cast<std::uint16_t>(m));
     }
   }
-  void shoot(std::uint32_t number, Cell cell, std::uint32_t heading, std::int8_t gear) {
+  void shoot(std::uint32_t number) {
     since_shot_ = 0;
     const std::uint64_t cost = nodes_[number].cost;
     if (cost >= goal_cost_) return;
-    const std::optional<LatticeShot> shot = space_.shot(cell, heading, gear, goal_cost_ - cost, options_.gear_change);
+    const std::optional<LatticeShot> shot =
+        space_.shot(cell_of(number), heading_of(number), gear_of(number), goal_cost_ - cost, options_.gear_change);
     if (!shot) return;
     goal_cost_ = cost + shot->cost;
     goal_node_ = number;

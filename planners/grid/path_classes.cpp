@@ -53,103 +53,6 @@ class Flood {
   std::vector<Cell> found_;
 };
 
-}  // namespace
-
-HoleCuts::HoleCuts(const Bitmap& blocked, double least, const Execution& execution) {
-  execution.reserve(4 * blocked.bytes() + sizeof(Cell) * blocked.count());
-  cells_ = Bitmap(blocked.width(), blocked.height());
-  cut_cells_ = cells_;
-  Bitmap rim = cells_;  // hangs together with the border
-  Flood flood(blocked, execution);
-  std::vector<Cell> lowest;
-  for (std::uint32_t y = 0; y < blocked.height(); ++y) {
-    execution.check();
-    for (std::uint32_t x = 0; x < blocked.width(); ++x) {
-      if (!flood.is_left(x, y)) {
-        if (flood.word(y, x / Bitmap::word_bits) == 0) x |= Bitmap::word_bits - 1;
-        continue;
-      }
-      Hole hole{{x, y}, {x, y}};
-      const std::vector<Cell>& found = flood.from({x, y});
-      for (const Cell c : found) {
-        hole.low = {std::min(hole.low.x, c.x), std::min(hole.low.y, c.y)};
-        hole.high = {std::max(hole.high.x, c.x), std::max(hole.high.y, c.y)};
-      }
-      const bool is_rim = hole.low.x == 0 || hole.low.y == 0 || hole.high.x + 1 == blocked.width() ||
-                          hole.high.y + 1 == blocked.height();
-      const double across = 1.0 + std::max(hole.high.x - hole.low.x, hole.high.y - hole.low.y);
-      if (!is_rim && across < least) continue;
-      Bitmap& into = is_rim ? rim : cells_;
-      for (const Cell c : found) into.set(c.x, c.y);
-      if (is_rim) continue;
-      push_asked(holes_, hole, execution);
-      push_asked(lowest, {x, y}, execution);
-    }
-  }
-  const auto ends_at = [&](std::uint32_t x, std::uint32_t y) { return rim.test(x, y) || cells_.test(x, y); };
-  for (std::size_t i = 0; i < lowest.size(); ++i) {
-    const auto [x, top] = lowest[i];
-    std::uint32_t low = top;
-    while (low > 0 && !ends_at(x, low - 1) && !ends_at(x + 1, low - 1)) cut_cells_.set(x, --low);
-    if (low < top) push_asked(cuts_, {x, low, top, as_whole<std::int32_t>(i + 1)}, execution);
-  }
-  std::sort(cuts_.begin(), cuts_.end(),
-            [](const Cut& a, const Cut& b) { return std::tie(a.column, a.low) < std::tie(b.column, b.low); });
-}
-
-std::int32_t HoleCuts::hole_at(std::uint32_t column, std::uint32_t row) const {
-  if (!cut_cells_.holds(column, row)) return 0;
-  const auto after =
-      std::upper_bound(cuts_.begin(), cuts_.end(), std::pair{column, row}, [](const auto& at, const Cut& cut) {
-        return at < std::pair{cut.column, cut.low};
-      });
-  return std::prev(after)->hole;
-}
-
-std::int32_t HoleCuts::letter(Cell from, unsigned step) const {
-  const auto [dx, dy] = cell_steps[step];
-  if (dx == 0) return 0;
-  const std::uint32_t column = dx > 0 ? from.x : from.x - 1;
-  // A diagonal step passes where four free cells meet: no cut ends there, so it crosses both cells' cut or neither's.
-  const std::int32_t hole = hole_at(column, from.y);
-  return dx > 0 ? hole : -hole;
-}
-
-std::vector<std::int32_t> HoleCuts::word(std::span<const Vec2> path) const {
-  std::vector<std::int32_t> word;
-  const auto add = [&](std::int32_t letter) {
-    if (letter == 0) return;
-    if (!word.empty() && word.back() == -letter) {
-      word.pop_back();
-    } else {
-      word.push_back(letter);
-    }
-  };
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    const Vec2 a = path[i - 1];
-    const Vec2 b = path[i];
-    const bool to_right = a.x < b.x;
-    const double low = std::min(a.x, b.x);
-    const double high = std::max(a.x, b.x);
-    // Lines low < x <= high: so a place on a line counts as one to its right, whichever leg it ends.
-    const auto column = [&](double x) {
-      return bounded_whole<std::uint32_t>(std::floor(x), 0.0, static_cast<double>(cut_cells_.width()));
-    };
-    const std::uint32_t first = column(low);
-    const std::uint32_t last = column(high);  // lines first + 1 .. last
-    for (std::uint32_t n = 0; n < last - first; ++n) {
-      const std::uint32_t line = to_right ? first + 1 + n : last - n;
-      const double y = a.y + (b.y - a.y) * ((static_cast<double>(line) - a.x) / (b.x - a.x));
-      const auto row = bounded_whole<std::uint32_t>(std::floor(y), 0.0, static_cast<double>(cut_cells_.height()));
-      const std::int32_t hole = hole_at(line - 1, row);
-      add(to_right ? hole : -hole);
-    }
-  }
-  return word;
-}
-
-namespace {
-
 /// All words that were met; a word is the number of its last letter. 0 is the empty one.
 class Words {
  public:
@@ -293,6 +196,99 @@ class ClassSearch {
 };
 
 }  // namespace
+
+HoleCuts::HoleCuts(const Bitmap& blocked, double least, const Execution& execution) {
+  execution.reserve(4 * blocked.bytes() + sizeof(Cell) * blocked.count());
+  cells_ = Bitmap(blocked.width(), blocked.height());
+  cut_cells_ = cells_;
+  Bitmap rim = cells_;  // hangs together with the border
+  Flood flood(blocked, execution);
+  std::vector<Cell> lowest;
+  for (std::uint32_t y = 0; y < blocked.height(); ++y) {
+    execution.check();
+    for (std::uint32_t x = 0; x < blocked.width(); ++x) {
+      if (!flood.is_left(x, y)) {
+        if (flood.word(y, x / Bitmap::word_bits) == 0) x |= Bitmap::word_bits - 1;
+        continue;
+      }
+      Hole hole{{x, y}, {x, y}};
+      const std::vector<Cell>& found = flood.from({x, y});
+      for (const Cell c : found) {
+        hole.low = {std::min(hole.low.x, c.x), std::min(hole.low.y, c.y)};
+        hole.high = {std::max(hole.high.x, c.x), std::max(hole.high.y, c.y)};
+      }
+      const bool is_rim = hole.low.x == 0 || hole.low.y == 0 || hole.high.x + 1 == blocked.width() ||
+                          hole.high.y + 1 == blocked.height();
+      const double across = 1.0 + std::max(hole.high.x - hole.low.x, hole.high.y - hole.low.y);
+      if (!is_rim && across < least) continue;
+      Bitmap& into = is_rim ? rim : cells_;
+      for (const Cell c : found) into.set(c.x, c.y);
+      if (is_rim) continue;
+      push_asked(holes_, hole, execution);
+      push_asked(lowest, {x, y}, execution);
+    }
+  }
+  const auto ends_at = [&](std::uint32_t x, std::uint32_t y) { return rim.test(x, y) || cells_.test(x, y); };
+  for (std::size_t i = 0; i < lowest.size(); ++i) {
+    const auto [x, top] = lowest[i];
+    std::uint32_t low = top;
+    while (low > 0 && !ends_at(x, low - 1) && !ends_at(x + 1, low - 1)) cut_cells_.set(x, --low);
+    if (low < top) push_asked(cuts_, {x, low, top, as_whole<std::int32_t>(i + 1)}, execution);
+  }
+  std::sort(cuts_.begin(), cuts_.end(),
+            [](const Cut& a, const Cut& b) { return std::tie(a.column, a.low) < std::tie(b.column, b.low); });
+}
+
+std::int32_t HoleCuts::hole_at(std::uint32_t column, std::uint32_t row) const {
+  if (!cut_cells_.holds(column, row)) return 0;
+  const auto after =
+      std::upper_bound(cuts_.begin(), cuts_.end(), std::pair{column, row}, [](const auto& at, const Cut& cut) {
+        return at < std::pair{cut.column, cut.low};
+      });
+  return std::prev(after)->hole;
+}
+
+std::int32_t HoleCuts::letter(Cell from, unsigned step) const {
+  const auto [dx, dy] = cell_steps[step];
+  if (dx == 0) return 0;
+  const std::uint32_t column = dx > 0 ? from.x : from.x - 1;
+  // A diagonal step passes where four free cells meet: no cut ends there, so it crosses both cells' cut or neither's.
+  const std::int32_t hole = hole_at(column, from.y);
+  return dx > 0 ? hole : -hole;
+}
+
+std::vector<std::int32_t> HoleCuts::word(std::span<const Vec2> path) const {
+  std::vector<std::int32_t> word;
+  const auto add = [&](std::int32_t letter) {
+    if (letter == 0) return;
+    if (!word.empty() && word.back() == -letter) {
+      word.pop_back();
+    } else {
+      word.push_back(letter);
+    }
+  };
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const Vec2 a = path[i - 1];
+    const Vec2 b = path[i];
+    const bool to_right = a.x < b.x;
+    const double low = std::min(a.x, b.x);
+    const double high = std::max(a.x, b.x);
+    // Lines low < x <= high: so a place on a line counts as one to its right, whichever leg it ends.
+    const auto column = [&](double x) {
+      return bounded_whole<std::uint32_t>(std::floor(x), 0.0, static_cast<double>(cut_cells_.width()));
+    };
+    const std::uint32_t first = column(low);
+    const std::uint32_t last = column(high);  // lines first + 1 .. last
+    for (std::uint32_t n = 0; n < last - first; ++n) {
+      const std::uint32_t line = to_right ? first + 1 + n : last - n;
+      const double y = a.y + (b.y - a.y) * ((static_cast<double>(line) - a.x) / (b.x - a.x));
+      const auto row = bounded_whole<std::uint32_t>(std::floor(y), 0.0, static_cast<double>(cut_cells_.height()));
+      const std::int32_t hole = hole_at(line - 1, row);
+      add(to_right ? hole : -hole);
+    }
+  }
+  return word;
+}
 
 std::vector<ClassPath> cheapest_classes(StepWeights& weights, PriceField& field, const HoleCuts& cuts, Cell start,
                                         Cell goal, const ClassChoice& choice, const Execution& execution) {

@@ -69,11 +69,10 @@ std::uint64_t PriceField::estimate(VertexId v) const {
 
 void PriceField::expand(VertexId v) {
   const std::uint64_t here = known(v);
-  // A weight may be dear to find: not where the length alone is too much.
-  const unsigned cheaper = weights_.may_lower(v, here, [&](VertexId w) { return known(w); });
-  for (unsigned rest = cheaper & weights_.allowed(v); rest != 0; rest &= rest - 1) {
+  for (unsigned rest = weights_.allowed(v); rest != 0; rest &= rest - 1) {
     const auto s = static_cast<unsigned>(std::countr_zero(rest));
     const VertexId w = v + weights_.offset(s);
+    if (here + weights_.length(s) >= known(w)) continue;  // a weight may be dear to find
     const std::uint64_t cost = here + weights_.weight(v, s);
     if (cost < known(w)) reach(w, cost);
   }

@@ -83,17 +83,11 @@ class StepWeights {
     const std::uint32_t known = known_[place_of(from, step)];
     return known == 0 || known == weight;
   }
-  /// Asks memory for what weight() and may_lower() will look at.
+  /// Asks memory for what weight() will look at.
   void fetch(VertexId v) const {
     if (!known_) return;
     __builtin_prefetch(&known_[std::size_t{back_steps} * v]);
     __builtin_prefetch(&known_[std::size_t{back_steps} * (v - cells_.stride())]);
-  }
-  /// Which steps from a cell, allowed or not, may lead to somebody for less than he has; bits of cell_steps. Of steps
-  /// whose weight is not known yet the length counts. has(cell): what he has, for any neighbour, of the margin too.
-  template <class Has>
-  unsigned may_lower(VertexId from, std::uint64_t here, const Has& has) const {
-    return known_ ? lower_by<true>(from, here, has) : lower_by<false>(from, here, has);
   }
   /// From now on the cell is free, or blocked. What steps near it weigh is forgotten by forget() alone.
   void change(Cell c, bool is_free) { cells_.change(c, is_free); }
@@ -118,21 +112,6 @@ class StepWeights {
                               : std::size_t{back_steps} * (from + offsets_[step]) + back_steps - 1 - step;
   }
   std::uint64_t first_weight(VertexId from, unsigned step);
-  /// Without a branch for each step, which nobody could foretell.
-  template <bool by_weight, class Has>
-  unsigned lower_by(VertexId from, std::uint64_t here, const Has& has) const {
-    const std::uint32_t* known = known_.get();
-    unsigned found = 0;
-    for (unsigned s = 0; s < steps_there_are; ++s) {
-      const VertexId to = from + offsets_[s];
-      std::uint64_t least = lengths_[s];
-      if constexpr (by_weight) {
-        least = std::max<std::uint64_t>(least, known[place_of(from, s)]);
-      }
-      found |= static_cast<unsigned>(here + least < has(to)) << s;
-    }
-    return found;
-  }
 
   FreeCells cells_;
   const std::array<std::uint8_t, 512>* allowed_;

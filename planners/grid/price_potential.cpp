@@ -59,36 +59,26 @@ class PricedTriangles {
   const std::vector<float>& prices() const { return prices_; }
 
  private:
-  /// For each column the nearest blocked row from a row on, up (itself included) and down. Rows of the outside are -1
-  /// and height().
-  void nearest_rows(std::vector<std::int32_t>& above, std::vector<std::int32_t>& below,
-                    const Execution& execution) const {
-    above.resize(blocked_.size());
-    below.resize(blocked_.size());
-    const auto rows = as_whole<std::int32_t>(height());
-    std::vector<std::int32_t> last(width(), -1);
-    for (std::uint32_t y = 0; y < height(); ++y) {
+  /// Of each cell, the nearest blocked row of its column, its own or above (below) it. Rows of the outside are -1 and
+  /// height().
+  std::vector<std::int32_t> nearest_rows(bool above, const Execution& execution) const {
+    std::vector<std::int32_t> nearest(blocked_.size());
+    std::vector<std::int32_t> last(width(), above ? as_whole<std::int32_t>(height()) : -1);
+    for (std::uint32_t n = 0; n < height(); ++n) {
       execution.check();
-      for (std::uint32_t x = 0; x < width(); ++x) {
-        below[std::size_t{y} * width() + x] = last[x];
-        if (blocked_.test(x, y)) last[x] = as_whole<std::int32_t>(y);
-      }
-    }
-    last.assign(width(), rows);
-    for (std::uint32_t y = height(); y-- > 0;) {
-      execution.check();
+      const std::uint32_t y = above ? height() - 1 - n : n;
       for (std::uint32_t x = 0; x < width(); ++x) {
         if (blocked_.test(x, y)) last[x] = as_whole<std::int32_t>(y);
-        above[std::size_t{y} * width() + x] = last[x];
+        nearest[std::size_t{y} * width() + x] = last[x];
       }
     }
+    return nearest;
   }
 
   /// No place of a triangle is farther from what is blocked than the farthest of its corners is from one square.
   void price(const Execution& execution) {
-    std::vector<std::int32_t> above;
-    std::vector<std::int32_t> below;
-    nearest_rows(above, below, execution);
+    const std::vector<std::int32_t> above = nearest_rows(true, execution);
+    const std::vector<std::int32_t> below = nearest_rows(false, execution);
     const DistanceField field(blocked_, CellDistance::squares, true, execution);
     const double paid = question_.radius + question_.reach;
     const auto around = bounded_whole<std::int64_t>(std::ceil(paid) + 1.0, 1.0, 1e9);

@@ -222,9 +222,13 @@ class SkeletonPlan {
         field_(roadmap.field) {}
 
   SkeletonPath run(std::vector<std::pair<Cell, Cell>>* steps) {
-    if (blocked_.test(start_.x, start_.y)) return ended(Outcome::start_blocked);
-    if (blocked_.test(goal_.x, goal_.y)) return ended(Outcome::goal_blocked);
-    thin();
+    if (blocked_.test(goal_.x, goal_.y)) plan_.outcome = Outcome::goal_blocked;
+    if (blocked_.test(start_.x, start_.y)) plan_.outcome = Outcome::start_blocked;
+    if (is_blocked(plan_.outcome)) return std::move(plan_);
+    {
+      const StageTimer timer(execution_, "skeleton", plan_.seconds.graph, blocked_.size());
+      cells_.emplace(map_skeleton(blocked_, field_, std::array{start_, goal_}, execution_), execution_);
+    }
     link();
     if (steps != nullptr) {
       for (const Edge& e : edges_) steps->push_back({cells_->cell(e.from), cells_->cell(e.to)});
@@ -234,19 +238,9 @@ class SkeletonPlan {
   }
 
  private:
-  SkeletonPath ended(Outcome outcome) {
-    plan_.outcome = outcome;
-    return std::move(plan_);
-  }
   VertexId start() const { return cells_->number(start_.x, start_.y); }
   VertexId goal() const { return cells_->number(goal_.x, goal_.y); }
   std::uint32_t squared(VertexId v) const { return field_.squared(cells_->cell(v).x, cells_->cell(v).y); }
-  void thin() {
-    const StageTimer timer(execution_, "skeleton", plan_.seconds.graph, blocked_.size());
-    const std::array<Cell, 2> kept{start_, goal_};
-    cells_.emplace(map_skeleton(blocked_, field_, kept, execution_), execution_);
-  }
-
   void link() {
     const StageTimer timer(execution_, "connect", plan_.seconds.connect, cells_->size());
     for (VertexId v = 0; v < cells_->size(); ++v) {
@@ -386,35 +380,33 @@ class LinesOfSkeleton {
   SkeletonLines run() {
     for (VertexId v = 0; v < cells_.size(); ++v) {
       execution_.poll(v);
-      if (neighbours(v).size() != 2) follow_all(v);
+      if (cells_.neighbours(v).size() != 2) follow_all(v);
     }
     for (VertexId v = 0; v < cells_.size(); ++v) {  // what is left are rings
       execution_.poll(v);
-      if (passed_[v] == 0 && neighbours(v).size() == 2) follow(v, neighbours(v).front());
+      if (passed_[v] == 0 && cells_.neighbours(v).size() == 2) follow(v, cells_.neighbours(v).front());
     }
     return numbered();
   }
 
  private:
-  NumberedCells::Neighbours neighbours(VertexId v) const { return cells_.neighbours(v); }
-
   /// Each chain once: from the end that comes first, or from either where it is walked by its own cells.
   void follow_all(VertexId v) {
     passed_[v] = 1;
-    for (const VertexId next : neighbours(v)) {
-      const bool chain = neighbours(next).size() == 2;
+    for (const VertexId next : cells_.neighbours(v)) {
+      const bool chain = cells_.neighbours(next).size() == 2;
       if (chain ? passed_[next] == 0 : v < next) follow(v, next);
     }
-    if (neighbours(v).size() == 0) push_asked(points_, v, execution_);
+    if (cells_.neighbours(v).size() == 0) push_asked(points_, v, execution_);
   }
 
   /// From one cell over the next to where the chain ends, or closes.
   void follow(VertexId from, VertexId next) {
     chain_.assign({from, next});
-    while (next != from && neighbours(next).size() == 2) {
+    while (next != from && cells_.neighbours(next).size() == 2) {
       execution_.poll(chain_.size());
       passed_[next] = 1;
-      const auto near = neighbours(next);
+      const auto near = cells_.neighbours(next);
       const VertexId before = chain_[chain_.size() - 2];
       next = near.cell[0] == before ? near.cell[1] : near.cell[0];
       push_asked(chain_, next, execution_);
@@ -468,7 +460,10 @@ class LinesOfSkeleton {
     };
     SkeletonLines result;
     for (const VertexId v : points_) result.cells.push_back(cells_.cell(v));
-    for (const Edge& line : lines_) result.edges.push_back({number(line.from), number(line.to)});
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+      execution_.poll(i);
+      result.edges.push_back({number(lines_[i].from), number(lines_[i].to)});
+    }
     return result;
   }
 
@@ -490,19 +485,6 @@ Bitmap map_skeleton(const Bitmap& blocked, const DistanceField& field, std::span
 
 SkeletonRoadmap::SkeletonRoadmap(const Bitmap& map, double radius, const Execution& execution)
     : blocked(blocked_for_disc(map, radius, execution)), field(map, CellDistance::squares, true, execution) {}
-
-SkeletonPath plan_on_skeleton(const Bitmap& blocked, Cell start, Cell goal, const SkeletonOptions& options,
-                              const Execution& execution, std::vector<std::pair<Cell, Cell>>* steps) {
-  std::optional<SkeletonRoadmap> roadmap;
-  double index_s = 0.0;
-  {
-    const StageTimer timer(execution, "index", index_s, blocked.size());
-    roadmap.emplace(blocked, options.radius, execution);
-  }
-  SkeletonPath plan = plan_on_skeleton(*roadmap, start, goal, options, execution, steps);
-  plan.seconds.index += index_s;
-  return plan;
-}
 
 SkeletonPath plan_on_skeleton(const SkeletonRoadmap& roadmap, Cell start, Cell goal, const SkeletonOptions& options,
                               const Execution& execution, std::vector<std::pair<Cell, Cell>>* steps) {

@@ -42,7 +42,6 @@ Bitmap map_skeleton(const Bitmap& blocked, const DistanceField& field, std::span
                     const Execution& execution, SkeletonEnds ends = SkeletonEnds::go);
 
 struct SkeletonOptions {
-  double radius = 0.0;  ///< of a disc, in cells, >= 0
   AxisObjective objective = AxisObjective::length;
   SearchKind search = SearchKind::astar;  ///< breadth- and depth-first count steps
   QueueKind queue = QueueKind::heap;
@@ -56,18 +55,14 @@ struct SkeletonPath : Solution<Cell> {
 
 /// What of a plan depends on neither start nor goal: the skeleton itself does. Any number of threads may plan on it.
 struct SkeletonRoadmap {
-  /// blocked: to a point; radius of a disc, in cells, >= 0. Throws Stopped.
+  /// map: what is blocked to a point, as what lies outside is; radius of a disc, in cells, >= 0. Throws Stopped.
   SkeletonRoadmap(const Bitmap& map, double radius, const Execution& execution);
 
   Bitmap blocked;       ///< to the disc
   DistanceField field;  ///< from what is blocked to a point
 };
 
-/// blocked: to a point; what lies outside is blocked. `steps`, where given, receives the skeleton's steps, for
-/// pictures. Throws Stopped.
-SkeletonPath plan_on_skeleton(const Bitmap& blocked, Cell start, Cell goal, const SkeletonOptions& options,
-                              const Execution& execution, std::vector<std::pair<Cell, Cell>>* steps = nullptr);
-/// The same plan on a map whose distances are there already. Of the options `radius` is the roadmap's.
+/// `steps`, where given, receives the skeleton's steps, for pictures. Throws Stopped.
 SkeletonPath plan_on_skeleton(const SkeletonRoadmap& roadmap, Cell start, Cell goal, const SkeletonOptions& options,
                               const Execution& execution, std::vector<std::pair<Cell, Cell>>* steps = nullptr);
 

@@ -102,14 +102,12 @@ LatticePassages wall_passages(const WalledLattice& world, const Execution& execu
 
 namespace {
 
-/// Eight bits as the lowest bits of eight bytes.
-constexpr std::array<std::uint64_t, 256> bits_as_bytes = [] {
-  std::array<std::uint64_t, 256> table{};
-  for (unsigned bits = 0; bits < 256; ++bits) {
-    for (unsigned i = 0; i < 8; ++i) table[bits] |= std::uint64_t{bits >> i & 1U} << (8 * i);
-  }
-  return table;
-}();
+/// Eight bits as the lowest bits of eight bytes: each byte keeps its own of them, which a sum carries to its highest.
+constexpr std::uint64_t bits_as_bytes(std::uint64_t bits) {
+  const std::uint64_t own = bits * 0x0101010101010101U & 0x8040201008040201U;
+  return (own + 0x00406070787c7e7fU) >> 7U & 0x0101010101010101U;
+}
+static_assert(bits_as_bytes(0xff) == 0x0101010101010101U && bits_as_bytes(0x92) == 0x0100000100000100U);
 
 /// Tiles [first_col, end_col) x [first_row, end_row).
 struct TileSquare {
@@ -127,8 +125,14 @@ class TreePeeling {
 
   RawVector<std::uint8_t> run() {
     for_each_index<std::uint32_t>(places_.tile_count(), 16, execution_, [&](std::uint32_t tile) {
-      load(tile);
-      peel_tile(tile * LatticePlaces::tile_places);
+      const std::uint32_t col = tile % places_.tile_cols();
+      const std::uint32_t row = tile / places_.tile_cols();
+      const LatticePlace first = tile * LatticePlaces::tile_places;
+      for (std::uint32_t i = 0; i < LatticePlaces::side; ++i) {
+        load_row(bytes_.data() + first + i * LatticePlaces::side, col * LatticePlaces::side,
+                 row * LatticePlaces::side + i);
+      }
+      for (LatticePlace i = 0; i < LatticePlaces::tile_places; ++i) follow(first + i, {col, row, col + 1, row + 1});
     });
     for (std::uint32_t side = growth; side / growth < most_tiles(); side *= growth) peel_squares(side);
     return std::move(bytes_);
@@ -138,39 +142,13 @@ class TreePeeling {
   static constexpr std::uint32_t growth = 8;
 
   std::uint32_t most_tiles() const { return std::max(places_.tile_cols(), places_.tile_rows()); }
-  void load(std::uint32_t tile) {
-    std::uint8_t* at = bytes_.data() + std::size_t{tile} * LatticePlaces::tile_places;
-    const std::uint32_t col = tile % places_.tile_cols() * LatticePlaces::side;
-    const std::uint32_t row = tile / places_.tile_cols() * LatticePlaces::side;
-    for (std::uint32_t i = 0; i < LatticePlaces::side; ++i) load_row(at + i * LatticePlaces::side, col, row + i);
-  }
-
   void load_row(std::uint8_t* at, std::uint32_t col, std::uint32_t row) const {
-    std::memset(at, 0, LatticePlaces::side);  // what fills up the lattice is no tree
-    if (row >= places_.size().rows) return;
-    const std::array<std::uint64_t, 4> open = passages_.open_words(col, row);
-    const std::uint32_t width = std::min(LatticePlaces::side, places_.size().cols - col);
-    std::array<std::uint8_t, LatticePlaces::side> line;
+    std::array<std::uint64_t, 4> open{};  // what fills up the lattice has no passages, and is no tree
+    if (row < places_.size().rows) open = passages_.open_words(col, row);
     for (unsigned i = 0; i < LatticePlaces::side; i += 8) {
       std::uint64_t eight = 0;
-      for (unsigned d = 0; d < 4; ++d) eight |= bits_as_bytes[open[d] >> i & 255U] << d;
-      std::memcpy(line.data() + i, &eight, 8);
-    }
-    std::memcpy(at, line.data(), width);
-  }
-
-  /// Dead ends of a tile whose way goes on in it.
-  void peel_tile(LatticePlace first) {
-    std::uint8_t* const tile = bytes_.data() + first;
-    for (LatticePlace start = 0; start < LatticePlaces::tile_places; ++start) {
-      LatticePlace at = start;
-      for (unsigned open = tile[at]; std::has_single_bit(open); open = tile[at]) {
-        const auto direction = static_cast<unsigned>(std::countr_zero(open));
-        if (direction > 3 || LatticePlaces::leaves_tile(at, direction)) break;
-        tile[at] = static_cast<std::uint8_t>(peel_bit::peeled | direction << peel_bit::direction_shift);
-        at = places_.step_inside(at, direction);
-        tile[at] = static_cast<std::uint8_t>(tile[at] & ~(1U << (direction ^ 2U)));
-      }
+      for (unsigned d = 0; d < 4; ++d) eight |= bits_as_bytes(open[d] >> i & 255U) << d;
+      std::memcpy(at + i, &eight, 8);
     }
   }
 
@@ -236,19 +214,8 @@ class TreePeeling {
 constexpr std::size_t core_row_grain = 1024;
 constexpr std::size_t junction_grain = 4096;
 
-/// Bit e: of nibbles of edges e, have they `least` edges or more? Processors without an instruction to count bits call
-/// a function for each cell.
-constexpr std::uint32_t nibbles_with(int least) {
-  std::uint32_t bits = 0;
-  for (unsigned e = 0; e < 16; ++e) bits |= std::uint32_t{std::popcount(e) >= least} << e;
-  return bits;
-}
-
 bool is_junction(LatticePlace p, unsigned byte) {
-  if ((byte & peel_bit::peeled) != 0) return false;
-  constexpr std::uint32_t two = nibbles_with(2);
-  constexpr std::uint32_t three = nibbles_with(3);
-  return ((is_post(p) ? two : three) >> (byte & peel_bit::edges) & 1U) != 0;
+  return (byte & peel_bit::peeled) == 0 && exit_count(byte & peel_bit::edges) >= (is_post(p) ? 2U : 3U);
 }
 
 class CoreWalk {
@@ -312,7 +279,7 @@ class CoreWalk {
     std::uint32_t length = 0;
     for (;;) {
       at = places_.step(at, direction);
-      ++length;
+      execution_.poll(++length);
       const unsigned back = direction ^ 2U;
       if ((bits_[at / 64] >> at % 64 & 1U) != 0) {
         graph_.twin[slot] = 4 * junction_at(at) + back;
@@ -376,10 +343,11 @@ class CoreReduction {
   void run() {
     execution_.reserve(graph_.size() * 8);
     gone_.assign(graph_.size(), 0);
+    std::uint64_t steps = 0;
     for (JunctionId v = 0; v < graph_.size(); ++v) {
-      if (v % (1U << 16) == 0) execution_.check();
       todo_.push_back(v);
       while (!todo_.empty()) {
+        execution_.poll(++steps);
         const JunctionId next = todo_.back();
         todo_.pop_back();
         visit(next);
@@ -435,11 +403,12 @@ class CoreReduction {
     RawVector<JunctionId> number(graph_.size());
     JunctionId next = 0;
     for (JunctionId v = 0; v < graph_.size(); ++v) {
+      execution_.poll(v);
       number[v] = next;
       next += gone_[v] == 0 ? 1 : 0;
     }
     for (JunctionId v = 0; v < graph_.size(); ++v) {
-      if (v % (1U << 16) == 0) execution_.check();
+      execution_.poll(v);
       if (gone_[v] != 0) continue;
       graph_.place[number[v]] = graph_.place[v];
       for (HalfEdge slot = 0; slot < 4; ++slot) {
@@ -466,6 +435,7 @@ class CoreReduction {
       unsigned direction = slot;
       LatticePlace at = graph_.place[v];
       for (std::uint32_t left = graph_.length[4 * v + slot]; left > 1; --left) {
+        execution_.poll(left);
         at = places_.step(at, direction);
         const unsigned edges = peeled_[at] & peel_bit::edges;
         mark(at, edges);

@@ -212,8 +212,6 @@ class LatticePlaces {
   LatticePlace step(LatticePlace p, unsigned direction) const {
     return p + (leaves_tile(p, direction) ? over_[direction] : inner_[direction]);
   }
-  /// The neighbour in the same tile.
-  LatticePlace step_inside(LatticePlace p, unsigned direction) const { return p + inner_[direction]; }
 
  private:
   LatticeSize size_;
@@ -349,6 +347,9 @@ inline std::uint8_t slots_of(const CoreGraph& graph, JunctionId v) {
   return static_cast<std::uint8_t>(slots);
 }
 
+/// How many of four directions there are: processors without an instruction to count bits call a function.
+constexpr unsigned exit_count(unsigned exits) { return 0x4332322132212110U >> 4 * exits & 15U; }
+
 /// Is the place on the grid of posts, every 16th column in every 16th row?
 constexpr bool is_post(LatticePlace p) { return (p & (15U | 15U * LatticePlaces::side)) == 0; }
 
@@ -383,8 +384,7 @@ RawVector<std::uint64_t> mark_words(const RawVector<std::uint8_t>& peeled, const
 
 struct DissectionNode {
   std::uint32_t members;   ///< how many of the junctions are its own
-  std::uint32_t children;  ///< nodes right below it, listed before it
-  std::uint32_t is_leaf;   ///< 1: what is left between cuts
+  std::uint32_t children;  ///< nodes right below it, listed before it; none: a leaf, what is left between cuts
 };
 
 struct Dissection {

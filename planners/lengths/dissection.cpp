@@ -2,7 +2,6 @@
 #include "planners/lengths/core_graph.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cassert>
 #include <utility>
@@ -25,19 +24,6 @@ struct PlanarRegion {
 
 /// Which side of a cut a junction is on.
 enum class CutSide : std::uint8_t { inside, outside, cut };
-
-/// [slots][slot]: the first slot that isn't empty before `slot`, going round to the right; `slot` itself comes last.
-constexpr std::array<std::array<std::uint8_t, 4>, 16> slot_before = [] {
-  std::array<std::array<std::uint8_t, 4>, 16> table{};
-  for (unsigned slots = 0; slots < 16; ++slots) {
-    for (unsigned slot = 0; slot < 4; ++slot) {
-      unsigned turn = 3;
-      while (turn > 0 && (slots >> ((slot + turn) & 3U) & 1U) == 0) --turn;
-      table[slots][slot] = static_cast<std::uint8_t>((slot + turn) & 3U);
-    }
-  }
-  return table;
-}();
 
 /// How a balanced set of junctions that cuts a region in two is found. Between the chains lie faces; a closed curve
 /// through faces that crosses k chains cuts the map with k junctions or fewer. Shortest curves are shortest paths in
@@ -69,26 +55,32 @@ class RegionCut {
  private:
   using Face = std::uint32_t;
 
-  /// The next half-edge along the face on the left, from the one that leads back.
+  /// The next half-edge along the face on the left, from the one that leads back: of the first slot before it that
+  /// isn't empty, going round to the right; its own comes last.
   HalfEdge next_around(HalfEdge back) const {
-    return (back & ~HalfEdge{3}) + slot_before[region_->slots[back / 4]][back & 3U];
+    const unsigned twice_around = region_->slots[back / 4] * 0x11U;
+    const auto turns = static_cast<HalfEdge>(std::bit_width(twice_around >> back % 4 & 15U)) - 1;
+    return (back & ~HalfEdge{3}) + ((back + turns) & 3U);
   }
   /// Returns the longest one.
   Face trace_faces() {
-    face_.assign(region_->twin.size(), no_half_edge);
+    assign_polled(face_, region_->twin.size(), no_half_edge, [this] { execution_.check(); });
     first_.clear();
     Face longest = 0;
     std::size_t most = 0;
+    std::uint64_t steps = 0;
     for (JunctionId v = 0; v < region_->size(); ++v) {
-      poll(v);
+      execution_.poll(v);
       for (unsigned left = region_->slots[v]; left != 0; left &= left - 1) {
         const HalfEdge h = 4 * v + static_cast<HalfEdge>(std::countr_zero(left));
         if (face_[h] != no_half_edge) continue;
         const auto face = static_cast<Face>(first_.size());
         first_.push_back(h);
         std::size_t length = 0;
-        for (HalfEdge at = h; face_[at] == no_half_edge; at = next_around(region_->twin[at]), ++length)
+        for (HalfEdge at = h; face_[at] == no_half_edge; at = next_around(region_->twin[at]), ++length) {
+          execution_.poll(++steps);
           face_[at] = face;
+        }
         if (length <= most) continue;
         most = length;
         longest = face;
@@ -106,12 +98,13 @@ class RegionCut {
     std::size_t end = 0;
     queue_[end++] = first;
     distance_[first] = 0;
+    std::uint64_t steps = 0;
     for (std::size_t i = 0; i < end; ++i) {
-      poll(i);
       const Face face = queue_[i];
       const std::uint32_t next_distance = distance_[face] + 1;
       HalfEdge h = first_[face];
       do {
+        execution_.poll(++steps);
         const HalfEdge twin = region_->twin[h];
         const Face other = face_[twin];
         if (distance_[other] == unseen) {
@@ -135,7 +128,7 @@ class RegionCut {
     std::size_t end = 0;
     order_[end++] = 0;
     for (std::size_t i = 0; i < end; ++i) {
-      poll(i);
+      execution_.poll(i);
       const JunctionId v = order_[i];
       const unsigned up = i == 0 ? 0 : 1U << region_->twin[above_[v]] % 4;
       for (unsigned left = region_->slots[v] & ~in_search_[v] & ~up; left != 0; left &= left - 1) {
@@ -147,7 +140,10 @@ class RegionCut {
     }
     assert(end == count);
     weight_.assign(count, 1);
-    for (std::size_t i = count; i-- > 1;) weight_[above_[order_[i]] / 4] += weight_[order_[i]];
+    for (std::size_t i = count; i-- > 1;) {
+      execution_.poll(i);
+      weight_[above_[order_[i]] / 4] += weight_[order_[i]];
+    }
   }
 
   /// The least length for its smaller side, where a third of the junctions is as good as a half; then the better
@@ -159,6 +155,7 @@ class RegionCut {
     std::uint64_t best_length = 0;
     std::uint64_t best_inside = 1;
     for (std::size_t i = 1; i < count; ++i) {
+      execution_.poll(i);
       const JunctionId v = order_[i];
       const Face left = face_[above_[v]];
       const Face right = face_[region_->twin[above_[v]]];
@@ -177,6 +174,7 @@ class RegionCut {
   void mark_inside(HalfEdge crossing) {
     side_.assign(region_->size(), CutSide::outside);
     for (std::size_t i = 1; i < order_.size(); ++i) {
+      execution_.poll(i);
       const JunctionId v = order_[i];
       if (above_[v] == crossing || side_[above_[v] / 4] == CutSide::inside) side_[v] = CutSide::inside;
     }
@@ -213,10 +211,6 @@ class RegionCut {
     for (const JunctionId v : inside.size() <= outside.size() ? inside : outside) side_[v] = CutSide::cut;
   }
 
-  void poll(std::size_t i) const {
-    if (i % (1U << 16) == 0) execution_.check();
-  }
-
   const Execution& execution_;
   const PlanarRegion* region_ = nullptr;
   RawVector<Face> face_;               // left of a half-edge
@@ -235,9 +229,8 @@ class RegionCut {
 /// A region of the upper levels, and what became of it.
 struct LargeRegion {
   PlanarRegion region;
-  std::vector<PlanarRegion> parts;    // until they have numbers
-  std::vector<std::size_t> children;  // their numbers
-  Dissection done;                    // its cut, or all of it where it was small enough to be done at once
+  std::vector<LargeRegion> parts;
+  Dissection done;  // its cut, or all of it where it was small enough to be done at once
 };
 
 /// Cuts regions, and splits what is left into its connected parts. Scratch of one thread.
@@ -264,9 +257,13 @@ class RegionDivision {
       parts[i].slots.resize(sizes_[i]);
       sizes_[i] = 0;
     }
-    number_junctions(region);
+    number_.resize(region.size());
     for (JunctionId v = 0; v < region.size(); ++v) {
-      if (v % (1U << 16) == 0) execution_.check();
+      execution_.poll(v);
+      if (part_[v] != none) number_[v] = sizes_[part_[v]]++;
+    }
+    for (JunctionId v = 0; v < region.size(); ++v) {
+      execution_.poll(v);
       if (part_[v] != none) copy(v, region, parts[part_[v]]);
     }
     return parts;
@@ -280,7 +277,7 @@ class RegionDivision {
     stack_.resize(region.size());
     sizes_.clear();
     for (JunctionId first = 0; first < region.size(); ++first) {
-      if (first % (1U << 16) == 0) execution_.check();
+      execution_.poll(first);
       if (part_[first] != none || side[first] == CutSide::cut) continue;
       const auto number = static_cast<std::uint32_t>(sizes_.size());
       std::uint32_t size = 0;
@@ -289,7 +286,7 @@ class RegionDivision {
       stack_[open++] = first;
       while (open > 0) {
         const JunctionId v = stack_[--open];
-        if (++size % (1U << 16) == 0) execution_.check();
+        execution_.poll(++size);
         for (unsigned left = region.slots[v]; left != 0; left &= left - 1) {
           const JunctionId near = region.twin[4 * v + static_cast<HalfEdge>(std::countr_zero(left))] / 4;
           if (part_[near] != none || side[near] == CutSide::cut) continue;
@@ -298,13 +295,6 @@ class RegionDivision {
         }
       }
       sizes_.push_back(size);
-    }
-  }
-
-  void number_junctions(const PlanarRegion& region) {
-    number_.resize(region.size());
-    for (JunctionId v = 0; v < region.size(); ++v) {
-      if (part_[v] != none) number_[v] = sizes_[part_[v]]++;
     }
   }
 
@@ -337,55 +327,55 @@ class Dissector {
 
   Dissection run() {
     execution_.reserve(graph_.size() * 80);
-    open_whole();
-    for (std::size_t first = 0; first < large_.size();) {
-      const std::size_t last = large_.size();
-      for_chunks(last - first, 1, execution_, [&](Range r) { divide(large_[first + r.first]); });
-      for (; first < last; ++first) number_parts(first);
+    LargeRegion whole = open_whole();
+    for (std::vector<LargeRegion*> level{&whole}; !level.empty();) {
+      std::vector<LargeRegion*> next;
+      for (LargeRegion* const large : level) {
+        for (LargeRegion& part : large->parts) next.push_back(&part);
+      }
+      level = std::move(next);
+      for_chunks(level.size(), 1, execution_, [&](Range r) { divide(*level[r.first]); });
     }
-    for (const std::size_t root : roots_) list(root);
+    list(whole);
     return std::move(result_);
   }
 
  private:
-  void open_whole() {
+  /// Its parts are those of the graph that hang together.
+  LargeRegion open_whole() const {
     PlanarRegion whole;
     whole.junction.resize(graph_.size());
-    whole.twin = graph_.twin;
+    whole.twin.resize(4 * graph_.size());
     whole.slots.resize(graph_.size());
     for (JunctionId v = 0; v < graph_.size(); ++v) {
+      execution_.poll(v);
       whole.junction[v] = v;
+      std::copy_n(graph_.twin.data() + 4 * v, 4, whole.twin.data() + 4 * v);
       whole.slots[v] = slots_of(graph_, v);
     }
     const RawVector<CutSide> nothing_cut(graph_.size(), CutSide::outside);
-    for (PlanarRegion& part : RegionDivision(execution_).split(whole, nothing_cut)) {
-      roots_.push_back(large_.size());
-      large_.emplace_back().region = std::move(part);
-    }
+    return {{}, as_large(RegionDivision(execution_).split(whole, nothing_cut)), {}};
+  }
+
+  static std::vector<LargeRegion> as_large(std::vector<PlanarRegion> regions) {
+    std::vector<LargeRegion> large(regions.size());
+    for (std::size_t i = 0; i < regions.size(); ++i) large[i].region = std::move(regions[i]);
+    return large;
   }
 
   void divide(LargeRegion& large) const {
     const PagePool pages;  // what is cut leaves room for its parts
     RegionDivision division(execution_);
     if (large.region.size() <= task_) return cut_down(std::move(large.region), division, large.done);
-    large.parts = division.divide(std::move(large.region), large.done.member);
+    large.parts = as_large(division.divide(std::move(large.region), large.done.member));
     large.done.node.push_back(
-        {static_cast<std::uint32_t>(large.done.member.size()), static_cast<std::uint32_t>(large.parts.size()), 0});
-  }
-
-  void number_parts(std::size_t large) {
-    std::vector<PlanarRegion> parts = std::move(large_[large].parts);
-    for (PlanarRegion& part : parts) {
-      large_[large].children.push_back(large_.size());
-      large_.emplace_back().region = std::move(part);
-    }
+        {static_cast<std::uint32_t>(large.done.member.size()), static_cast<std::uint32_t>(large.parts.size())});
   }
 
   void cut_down(PlanarRegion region, RegionDivision& division, Dissection& into) const {  // NOLINT(misc-no-recursion)
-    const bool is_leaf = region.size() <= leaf_;
     RawVector<JunctionId> members;
     std::uint32_t children = 0;
-    if (is_leaf) {
+    if (region.size() <= leaf_) {
       members = std::move(region.junction);
     } else {
       std::vector<PlanarRegion> parts = division.divide(std::move(region), members);
@@ -393,24 +383,22 @@ class Dissector {
       for (PlanarRegion& part : parts) cut_down(std::move(part), division, into);
     }
     into.member.insert(into.member.end(), members.begin(), members.end());
-    into.node.push_back({static_cast<std::uint32_t>(members.size()), children, is_leaf ? 1U : 0U});
+    into.node.push_back({static_cast<std::uint32_t>(members.size()), children});
   }
 
   /// Children first. Regions of the upper levels are cut a few dozen deep at most.
-  void list(std::size_t number) {  // NOLINT(misc-no-recursion)
-    for (const std::size_t child : large_[number].children) list(child);
-    const Dissection& done = large_[number].done;
+  void list(LargeRegion& large) {  // NOLINT(misc-no-recursion)
+    for (LargeRegion& part : large.parts) list(part);
+    const Dissection& done = large.done;
     result_.node.insert(result_.node.end(), done.node.begin(), done.node.end());
     result_.member.insert(result_.member.end(), done.member.begin(), done.member.end());
-    large_[number] = {};
+    large = {};
   }
 
   const CoreGraph& graph_;
   const std::size_t leaf_;
   const Execution& execution_;
   const std::size_t task_;  // regions of so many junctions are done at once
-  std::vector<LargeRegion> large_;
-  std::vector<std::size_t> roots_;
   Dissection result_;
 };
 

@@ -50,14 +50,6 @@ class PieceBuilder {
     LatticePlace door;
   };
 
-  template <class Visit>
-  void for_each_poll(std::size_t n, const Visit& visit) const {
-    for (std::size_t i = 0; i < n; ++i) {
-      if (i % (1U << 16) == 0) execution_.check();
-      visit(i);
-    }
-  }
-
   void find_exits() {
     const std::size_t tiles = places_.tile_count();
     RawVector<std::uint64_t> exits(4 * tiles);
@@ -102,32 +94,34 @@ class PieceBuilder {
     const std::size_t count = exits_.size();
     RawVector<std::uint32_t> children(count);  // that are still to come
     RawVector<std::uint32_t> size(count);
-    RawVector<std::uint32_t> largest(count);
     heavy_.resize(count);
-    for_each_poll(count, [&](std::size_t i) {
+    for (std::size_t i = 0; i < count; ++i) {
+      execution_.poll(i);
       children[i] = 0;
       size[i] = 1;
-      largest[i] = 0;
       heavy_[i] = no_piece;
-    });
-    for_each_poll(count, [&](std::size_t i) {
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      execution_.poll(i);
       if (exits_[i].parent != no_piece) ++children[exits_[i].parent];
-    });
+    }
     order_.resize(count);
     std::size_t last = 0;
-    for_each_poll(count, [&](std::size_t i) {
+    for (std::size_t i = 0; i < count; ++i) {
+      execution_.poll(i);
       if (children[i] == 0) order_[last++] = static_cast<PieceId>(i);
-    });
-    for_each_poll(count, [&](std::size_t i) {
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      execution_.poll(i);
       const PieceId child = order_[i];
       const PieceId parent = exits_[child].parent;
-      if (parent == no_piece) return;
+      if (parent == no_piece) continue;
       if (--children[parent] == 0) order_[last++] = parent;
       size[parent] += size[child];
-      if (size[child] < largest[parent] || (size[child] == largest[parent] && child > heavy_[parent])) return;
-      largest[parent] = size[child];
-      heavy_[parent] = child;
-    });
+      PieceId& heavy = heavy_[parent];
+      const bool is_larger = heavy == no_piece || size[child] > size[heavy];
+      if (is_larger || (size[child] == size[heavy] && child < heavy)) heavy = child;
+    }
   }
 
   /// From the roots down: whoever is no heavy child heads a path, numbered as a whole.
@@ -136,10 +130,11 @@ class PieceBuilder {
     RawVector<PieceId> number(count);
     RawVector<TreePiece> pieces(count);
     PieceId next = 0;
-    for_each_poll(count, [&](std::size_t i) {
+    for (std::size_t i = 0; i < count; ++i) {
+      execution_.poll(i);
       const PieceId top = order_[count - 1 - i];
       const PieceId parent = exits_[top].parent;
-      if (parent != no_piece && heavy_[parent] == top) return;
+      if (parent != no_piece && heavy_[parent] == top) continue;
       const PieceId head = next;
       const PieceId up = parent == no_piece ? no_piece : number[parent];
       std::uint32_t depth = up == no_piece ? 0 : pieces[up].depth;
@@ -148,7 +143,7 @@ class PieceBuilder {
         pieces[next] = {head, up, depth, exits_[p].door};
         number[p] = next++;
       }
-    });
+    }
     arrays_.piece = ArrayOrView<PieceId>(std::move(number));
     arrays_.pieces = ArrayOrView<TreePiece>(std::move(pieces));
   }
@@ -453,7 +448,7 @@ void RouteIndex::mark_gates(const Execution& execution) {
   RawVector<std::uint64_t> gates;
   assign_polled(gates, rows, std::uint64_t{0}, [&] { execution.check(); });
   for (std::size_t rank = 0; rank < gate_place.size(); ++rank) {
-    if (rank % (1U << 16) == 0) execution.check();
+    execution.poll(rank);
     const LatticePlace p = gate_place[rank];
     gates[p / 64] |= std::uint64_t{1} << p % 64;
   }
@@ -465,16 +460,10 @@ void RouteIndex::mark_gates(const Execution& execution) {
   arrays_.gates = ArrayOrView<std::uint64_t>(std::move(gates));
   arrays_.gates_before = ArrayOrView<std::uint32_t>(std::move(before));
   for (std::size_t rank = 0; rank < gate_place.size(); ++rank) {
-    if (rank % (1U << 16) == 0) execution.check();
+    execution.poll(rank);
     ranks[number_of_gate(gate_place[rank])] = static_cast<GateRank>(rank);
   }
   arrays_.gate_rank = ArrayOrView<GateRank>(std::move(ranks));
-}
-
-std::size_t RouteIndex::bytes() const {
-  std::size_t sum = 0;
-  for (const RouteSection& section : route_sections(*this)) sum += section.bytes.size();
-  return sum;
 }
 
 std::vector<RouteSection> route_sections(const RouteIndex& index) {

@@ -166,8 +166,6 @@ class RouteIndex {
       check_front(number);
     return arrays_.fronts.fronts[number];
   }
-  /// Of all arrays, passages included.
-  std::size_t bytes() const;
 
  private:
   static constexpr std::size_t gates_a_look = 4;

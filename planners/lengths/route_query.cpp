@@ -2,7 +2,6 @@
 #include "planners/lengths/route_index.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <span>
 #include <string>
@@ -49,15 +48,9 @@ std::uint64_t front_column(const FrontArrays& fronts, const Front& f, GateRank r
 
 [[noreturn]] void refuse_hop() { throw InputError("route index", "its fronts contradict its marks: build it again"); }
 
-// What a motion adds to column and row, modulo 2^32.
-constexpr std::array<std::uint32_t, 4> right{1, 0, ~std::uint32_t{0}, 0};
-constexpr std::array<std::uint32_t, 4> up{0, 1, 0, ~std::uint32_t{0}};
-
 /// A cell that was seen. Steps and the cell it was seen from.
 struct SeenCell {
   LatticePlace place;
-  std::uint32_t col;
-  std::uint32_t row;
   std::uint32_t steps;
   std::uint32_t from;  ///< number of a seen cell, its own for the first
 };
@@ -66,7 +59,7 @@ struct SeenCell {
 struct SeenGate {
   GateRank rank;
   std::uint32_t steps;
-  std::uint32_t seen;  ///< its number among the seen cells
+  LatticePlace place;
 };
 
 /// A breadth-first search of the core, cell by cell, that stops at gates: it sees the chain or the leaf that it begins
@@ -77,16 +70,21 @@ class CoreSearch {
 
   /// Everything that is reached from `start` without passing a gate. A start that is a gate is only itself.
   void search(LatticePlace start) {
+    const LatticePlaces& places = index_.places();
+    if (places.col(start) >= places.size().cols || places.row(start) >= places.size().rows) {
+      throw InputError("route index", "a cell of it lies outside the lattice: build it again");
+    }
+    index_.look_at_tile(start);
     if (++search_ == 0) {  // after 2^32 searches
       std::fill(slots_.begin(), slots_.end(), Slot{});
       search_ = 1;
     }
-    seen_.assign(1, first_cell(start));
+    seen_.assign(1, {start, 0, 0});
     gates_.clear();
     enter(start, 0);
     for (std::uint32_t i = 0; i < seen_.size(); ++i) {
       if (index_.is_gate(seen_[i].place)) {
-        gates_.push_back({index_.gate_at(seen_[i].place), seen_[i].steps, i});
+        gates_.push_back({index_.gate_at(seen_[i].place), seen_[i].steps, seen_[i].place});
       } else {
         expand(i);
       }
@@ -94,40 +92,29 @@ class CoreSearch {
   }
 
   std::span<const SeenGate> gates() const { return gates_; }
-  /// Number of a seen cell, or none.
-  static constexpr std::uint32_t none = ~std::uint32_t{0};
-  std::uint32_t number_of(LatticePlace p) const {
+  /// By no gate but the two ends; no_way: it was not seen.
+  std::uint32_t steps_to(LatticePlace p) const {
     const Slot& slot = slots_[slot_of(p)];
-    return slot.search == search_ ? slot.number : none;
+    return slot.search == search_ ? seen_[slot.number].steps : no_way;
   }
-  const SeenCell& seen(std::uint32_t number) const { return seen_[number]; }
   /// Writes the cells on the way from the start, not included, to a seen cell, included: each as many places from
   /// `start` as it is steps from the start, in `direction`, 1 or -1.
-  void write_way(std::uint32_t to, CellId* start, int direction) const {
-    const std::uint32_t cols = index_.places().size().cols;
-    for (; to != 0; to = seen_[to].from) {
-      start[std::ptrdiff_t{direction} * seen_[to].steps] = seen_[to].row * cols + seen_[to].col;
+  void write_way(LatticePlace to, CellId* start, int direction) const {
+    for (std::uint32_t i = slots_[slot_of(to)].number; i != 0; i = seen_[i].from) {
+      start[std::ptrdiff_t{direction} * seen_[i].steps] = index_.places().cell_of(seen_[i].place);
     }
   }
 
  private:
-  SeenCell first_cell(LatticePlace start) const {
-    const SeenCell first{start, index_.places().col(start), index_.places().row(start), 0, 0};
-    const LatticeSize size = index_.places().size();
-    if (first.col >= size.cols || first.row >= size.rows) {
-      throw InputError("route index", "a cell of it lies outside the lattice: build it again");
-    }
-    index_.look_at_tile(start);
-    return first;
-  }
   void expand(std::uint32_t number) {
     const SeenCell at = seen_[number];
-    for (unsigned open = index_.passages().open_at(at.col, at.row); open != 0; open &= open - 1) {
-      const auto d = static_cast<unsigned>(std::countr_zero(open));
-      const LatticePlace next = index_.places().step(at.place, d);
+    const LatticePlaces& places = index_.places();
+    for (unsigned open = index_.passages().open_at(places.col(at.place), places.row(at.place)); open != 0;
+         open &= open - 1) {
+      const LatticePlace next = places.step(at.place, static_cast<unsigned>(std::countr_zero(open)));
       if (next == seen_[at.from].place || !is_core(next, at.place)) continue;
       if (!enter(next, static_cast<std::uint32_t>(seen_.size()))) continue;
-      seen_.push_back({next, at.col + right[d], at.row + up[d], at.steps + 1, number});
+      seen_.push_back({next, at.steps + 1, number});
     }
   }
   bool is_core(LatticePlace next, LatticePlace from) const {
@@ -347,7 +334,7 @@ class HopWalk : public MarkWalk {
     turns_ = hop.turns;
     came_from_ = 0;
     MarkWalk::begin(hop);
-    if (direction() > 0) write();
+    if (direction_ > 0) write();
   }
   void step() {
     unsigned onwards = exits() & ~came_from_;
@@ -357,7 +344,7 @@ class HopWalk : public MarkWalk {
     came_from_ = 1U << (way ^ 2U);
     if (!go(way)) [[unlikely]]
       refuse_hop();
-    if (direction() < 0 || left() > 0) write();
+    if (direction_ < 0 || left_ > 0) write();
     if (is_astray()) refuse_hop();
   }
 
@@ -554,16 +541,11 @@ class RouteQuery::Scratch {
     if (cell < index_.passages().cell_count()) return index_.places().place_of(cell);
     throw InputError("cell", "must be below " + std::to_string(index_.passages().cell_count()), std::to_string(cell));
   }
-  /// By no gate but the two ends, or no_way.
-  std::uint32_t direct_length(LatticePlace goal) const {
-    const std::uint32_t seen = near_start_.number_of(goal);
-    return seen == CoreSearch::none ? no_way : near_start_.seen(seen).steps;
-  }
   /// traced: with the way itself, as long as its parts together, or refused.
   FrontQuery::Way core_way(LatticePlace start, LatticePlace goal, bool traced) {
     near_start_.search(start);
     near_goal_.search(goal);
-    const std::uint32_t direct = direct_length(goal);
+    const std::uint32_t direct = near_start_.steps_to(goal);
     FrontQuery::Way way = fronts_.way(near_start_.gates(), near_goal_.gates(), direct, traced);
     if (!traced || way.length == direct) return way;
     std::size_t length = std::size_t{near_start_.gates()[way.first].steps} + near_goal_.gates()[way.last].steps;
@@ -573,12 +555,12 @@ class RouteQuery::Scratch {
   }
   /// cells: the first one stands already.
   void write_core_way(const FrontQuery::Way& way, LatticePlace goal, CellId* cells, const Execution& execution) {
-    if (way.length == direct_length(goal)) return near_start_.write_way(near_start_.number_of(goal), cells, 1);
+    if (way.length == near_start_.steps_to(goal)) return near_start_.write_way(goal, cells, 1);
     const SeenGate& first = near_start_.gates()[way.first];
-    near_start_.write_way(first.seen, cells, 1);
+    near_start_.write_way(first.place, cells, 1);
     unpacking_.write(way.steps, cells + first.steps, execution);
     cells[way.length] = index_.places().cell_of(goal);
-    near_goal_.write_way(near_goal_.gates()[way.last].seen, cells + way.length, -1);
+    near_goal_.write_way(near_goal_.gates()[way.last].place, cells + way.length, -1);
   }
 
   const RouteIndex& index_;

@@ -322,8 +322,10 @@ class FrontPart {
   }
 
   /// Once all fronts are there: their parents.
-  void link() {
-    for (Front& front : fronts_) {
+  void link(const Execution& execution) {
+    for (std::size_t i = 0; i < fronts_.size(); ++i) {
+      execution.poll(i);
+      Front& front = fronts_[i];
       if (front.bounds == 0) continue;
       const GateRank lowest = bounds_[front.first_bound];
       const auto after = std::upper_bound(fronts_.begin(), fronts_.end(), lowest,
@@ -435,6 +437,7 @@ class FrontBuilder {
     std::uint64_t member = 0;
     GateRank next = 0;
     for (std::size_t node = 0; node < dissection_.node.size(); ++node) {
+      execution_.poll(node);
       const DissectionNode& n = dissection_.node[node];
       NodePlace place{member, n.members, next, static_cast<std::uint32_t>(node)};
       for (std::uint32_t i = 0; i < n.children; ++i, open.pop_back()) {
@@ -443,7 +446,7 @@ class FrontBuilder {
       }
       open.push_back(node);
       place_.push_back(place);
-      if (n.is_leaf == 0) {
+      if (n.children > 0) {
         for (const JunctionId v : members(node)) {
           rank_[v] = next++;
           gate_place_.push_back(graph_.place[v]);
@@ -467,7 +470,7 @@ class FrontBuilder {
   /// The children's lengths are the last ones of `open`; the node's take their place.
   void do_node(std::size_t node, LeafElimination& leaves, std::vector<BoundLengths>& open, FrontPart& part) const {
     const DissectionNode& n = dissection_.node[node];
-    if (n.is_leaf != 0) return open.push_back(leaves.eliminate(members(node), execution_));
+    if (n.children == 0) return open.push_back(leaves.eliminate(members(node), execution_));
     const std::span<const BoundLengths> children(open.data() + (open.size() - n.children), n.children);
     const std::vector<GateRank> bounds = bounds_of(node, children);
     FrontMatrix matrix(n.members + bounds.size(), execution_);
@@ -532,16 +535,15 @@ class FrontBuilder {
     for (std::size_t node = 0; node < place_.size(); ++node) {
       if (task < tasks_.size() && place_[tasks_[task]].first_node == node) {
         node = tasks_[task];
+        execution_.check();
         all.append(std::exchange(parts[task], {}));
         for (BoundLengths& lengths : left[task]) open.push_back(std::move(lengths));
         left[task++].clear();
         continue;
       }
-      FrontPart one;
-      do_node(node, leaves, open, one);
-      all.append(one);
+      do_node(node, leaves, open, all);
     }
-    all.link();
+    all.link(execution_);
     return all.arrays(std::move(gate_place_));
   }
 

@@ -56,9 +56,6 @@ LessenRowBy lessen_row_by(detail::InstructionSet set = detail::best_instruction_
 /// alone, along chains, nothing is to be told. With most_leaf_junctions that is less than 4 * 3^36 < 2^60.
 using HopTurns = std::uint64_t;
 
-/// How many of four directions there are: processors without an instruction to count bits call a function.
-constexpr unsigned exit_count(unsigned exits) { return 0x4332322132212110U >> 4 * exits & 15U; }
-
 /// Puts turns together, in the order of the way.
 class TurnWriter {
  public:

@@ -27,43 +27,6 @@ class ClimbWalk : public MarkWalk {
   }
 };
 
-/// A bit a cell.
-using SeenInTile = std::array<std::uint64_t, LatticePlaces::tile_places / 64>;
-
-/// A climb in a tile that knows where it has been.
-class TileWalk {
- public:
-  TileWalk(CellMarks marks, LatticePlace from) : climb_(marks, from) { trail_[0] = at(); }
-
-  /// False at its end, and after as many steps as a tile has cells.
-  bool step() {
-    if (steps_ + 1 == trail_.size() || !climb_.step()) return false;
-    trail_[++steps_] = at();
-    return true;
-  }
-  bool was_seen(const SeenInTile& seen) const { return (seen[at() / 64] >> at() % 64 & 1U) != 0; }
-  bool mark(SeenInTile& seen) const {
-    seen[at() / 64] |= std::uint64_t{1} << at() % 64;
-    return true;
-  }
-  LatticePlace place() const { return climb_.place(); }
-  std::uint32_t steps() const { return steps_; }
-  /// From where this walk began to where the other one is, where this one has been.
-  std::uint32_t steps_to(const TileWalk& other) const {
-    const auto* const end = trail_.data() + steps_ + 1;
-    const auto* const found = std::find(trail_.data(), end, other.at());
-    if (found == end) refuse_climb();
-    return static_cast<std::uint32_t>(found - trail_.data());
-  }
-
- private:
-  std::uint16_t at() const { return static_cast<std::uint16_t>(climb_.place() % LatticePlaces::tile_places); }
-
-  TileClimb climb_;
-  std::uint32_t steps_ = 0;
-  std::array<std::uint16_t, LatticePlaces::tile_places> trail_;  // where it was after so many steps
-};
-
 }  // namespace
 
 void write_climbs(const RouteIndex& index, std::span<const MarkedWay> legs, const Execution& execution) {
@@ -75,17 +38,9 @@ void write_climbs(const RouteIndex& index, std::span<const MarkedWay> legs, cons
 TreeRoutes::Climber TreeRoutes::climber(LatticePlace from, const Climb& climb) const {
   Climber climber{from, climb, climb.steps, no_piece};
   if (climb.at_core) return climber;
-  enter(climber, pieces_.piece_at(climb.last));
+  climber.piece = pieces_.piece_at(climb.last);
   climber.depth += pieces_.piece(climber.piece).depth;
   return climber;
-}
-
-void TreeRoutes::enter(Climber& climber, PieceId piece) const {
-  climber.piece = piece;
-  climber.head = no_piece;
-  if (piece == no_piece) return;
-  climber.head = pieces_.piece(piece).head;
-  climber.up = pieces_.piece(piece).up;
 }
 
 /// While they are in pieces of different paths, the one with the larger number, which hangs off the other's path or
@@ -93,14 +48,16 @@ void TreeRoutes::enter(Climber& climber, PieceId piece) const {
 /// below leaves by the child of the other's piece.
 void TreeRoutes::climb_to_one_piece(Climber& start, Climber& goal) const {
   const auto order = [](PieceId p) { return p + 1; };  // none is least
-  while (start.head != goal.head) {
+  const auto head = [this](PieceId p) { return p == no_piece ? no_piece : pieces_.piece(p).head; };
+  while (head(start.piece) != head(goal.piece)) {
     Climber& later = order(start.piece) > order(goal.piece) ? start : goal;
-    later.left = later.head;
-    enter(later, later.up);
+    later.left = head(later.piece);
+    later.piece = pieces_.piece(later.piece).up;
   }
   if (start.piece == goal.piece) return;
   Climber& below = start.piece > goal.piece ? start : goal;
-  below.left = std::min(start.piece, goal.piece) + 1;
+  below.piece = std::min(start.piece, goal.piece);
+  below.left = below.piece + 1;
 }
 
 /// To the door of the last piece that was left.
@@ -125,48 +82,36 @@ TreeJoin TreeRoutes::join(LatticePlace start, LatticePlace goal) const {
   step_out(to);
   index_.look_at_tile(from.at);
   index_.look_at_tile(to.at);
-  return from.piece != no_piece ? meet_in_piece(from, to) : meet_at_core(from, to);
+  return meet(from, to);
 }
 
-/// Side by side until one comes where the other has been, before the exit of the piece that they are in at the latest.
-TreeJoin TreeRoutes::meet_in_piece(const Climber& start, const Climber& goal) const {
+/// In its tile: to the exit of the piece that it is in, or to the core or the root of its tree.
+Climb TreeRoutes::rest_of(const Climber& climber) const {
+  if (climber.left == no_piece) return climber.climb;
+  if (climber.piece == no_piece) return pieces_.climb(climber.at);
+  return {climber.at, climber.depth - climber.steps - pieces_.piece(climber.piece).depth, false};
+}
+
+/// In one piece both ways lead to its exit, outside of all to the core or the root of their tree, and where they meet
+/// both have as many steps left.
+TreeJoin TreeRoutes::meet(const Climber& start, const Climber& goal) const {
+  const Climb rest_a = rest_of(start);
+  const Climb rest_b = rest_of(goal);
+  const TreeJoin apart{start.steps + rest_a.steps, goal.steps + rest_b.steps, rest_a.last, rest_b.last};
+  if (start.piece == no_piece && !apart.in_tree()) return apart;
   if (LatticePlaces::tile_of(start.at) != LatticePlaces::tile_of(goal.at)) refuse_climb();
-  TileWalk a(marks_, start.at);
-  TileWalk b(marks_, goal.at);
-  SeenInTile seen{};
-  if (start.at == goal.at) return {start.steps, goal.steps, start.at, start.at};
-  a.mark(seen);
-  b.mark(seen);
-  for (bool goes = true; goes;) {
-    goes = false;
-    if (a.step()) {
-      if (a.was_seen(seen)) return {start.steps + a.steps(), goal.steps + b.steps_to(a), a.place(), a.place()};
-      goes = a.mark(seen);
-    }
-    if (b.step()) {
-      if (b.was_seen(seen)) return {start.steps + a.steps_to(b), goal.steps + b.steps(), b.place(), b.place()};
-      goes = b.mark(seen);
-    }
-  }
-  refuse_climb();
-}
-
-/// Both have left all pieces: the core, or the root of their tree, is in the tile of each.
-TreeJoin TreeRoutes::meet_at_core(Climber& start, Climber& goal) const {
-  if (start.steps > 0) start.climb = pieces_.climb(start.at);
-  if (goal.steps > 0) goal.climb = pieces_.climb(goal.at);
+  std::uint32_t left_a = rest_a.steps;
+  std::uint32_t left_b = rest_b.steps;
+  if (std::max(left_a, left_b) > LatticePlaces::tile_places) refuse_climb();
   TileClimb a(marks_, start.at);
   TileClimb b(marks_, goal.at);
-  std::uint32_t left_a = start.climb.steps;
-  std::uint32_t left_b = goal.climb.steps;
-  const TreeJoin apart{start.steps + left_a, goal.steps + left_b, start.climb.last, goal.climb.last};
-  if (!apart.in_tree()) return apart;
   for (; left_a > left_b; --left_a) a.step();
   for (; left_b > left_a; --left_b) b.step();
   for (; a.place() != b.place() && left_a > 0; --left_a) {
     a.step();
     b.step();
   }
+  if (a.place() != b.place()) refuse_climb();
   return {apart.start_steps - left_a, apart.goal_steps - left_a, a.place(), a.place()};
 }
 

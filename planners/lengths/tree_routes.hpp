@@ -65,13 +65,13 @@ class MarkWalk : protected WalkedCells {
   bool is_lowest_row() const { return at_ <= col_bits; }
   /// Its marks.
   const std::uint64_t* row() const { return words_ + std::size_t{at_ >> row_shift} * mark_word::count; }
-  std::uint32_t left() const { return left_; }
-  int direction() const { return direction_; }
   /// Has it ended beside where it leads to?
   bool is_astray() const { return left_ == 0 && place() != to_; }
 
   const RouteIndex& index_;
   const CellMarks marks_;
+  std::uint32_t left_ = 0;  // steps
+  int direction_ = 1;
 
  private:
   static constexpr std::array<std::uint32_t, 4> motion{1, 1U << row_shift, ~std::uint32_t{0}, ~(1U << row_shift) + 1};
@@ -91,10 +91,8 @@ class MarkWalk : protected WalkedCells {
   }
 
   const std::array<CellId, 4> next_;  // what a motion adds to a cell, modulo 2^32
-  std::uint32_t left_ = 0;
   CellId cell_ = 0;
   CellId* out_ = nullptr;
-  int direction_ = 1;
   LatticePlace to_ = 0;
   std::uint32_t tile_ = 0;
   std::uint32_t at_ = 0;  // in it
@@ -151,20 +149,17 @@ class TreeRoutes {
   /// A cell on its way to the core: it stands in a piece, or in none where the core is in its tile.
   struct Climber {
     LatticePlace at;
-    Climb climb;          // from `at`, in its tile
+    Climb climb;          // from where it began, in its tile
     std::uint32_t depth;  // of where it began, if there in a piece: steps to the core
     PieceId piece;
-    PieceId head = no_piece;  // of its path
-    PieceId up = no_piece;    // where its path leads to
     PieceId left = no_piece;  // the last piece that it has left
     std::uint32_t steps = 0;  // from where it began to `at`
   };
   Climber climber(LatticePlace from, const Climb& climb) const;
-  void enter(Climber& climber, PieceId piece) const;
   void climb_to_one_piece(Climber& start, Climber& goal) const;
   void step_out(Climber& climber) const;
-  TreeJoin meet_in_piece(const Climber& start, const Climber& goal) const;
-  TreeJoin meet_at_core(Climber& start, Climber& goal) const;
+  Climb rest_of(const Climber& climber) const;
+  TreeJoin meet(const Climber& start, const Climber& goal) const;
 
   const RouteIndex& index_;
   CellMarks marks_;

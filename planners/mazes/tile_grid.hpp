@@ -155,10 +155,7 @@ inline std::array<WallShape, 2> wall_shapes(const NarrowWall* walls, bool single
 #else
 
 inline NarrowWall narrowed(FourSteps steps) {
-  const auto narrow = [&](int i) {
-    return static_cast<std::int16_t>(std::clamp<std::int32_t>(steps[i], std::numeric_limits<std::int16_t>::min(),
-                                                              std::numeric_limits<std::int16_t>::max()));
-  };
+  const auto narrow = [&](int i) { return static_cast<std::int16_t>(steps[i]); };
   return {narrow(0), narrow(1), narrow(2), narrow(3)};
 }
 

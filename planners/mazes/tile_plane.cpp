@@ -74,6 +74,121 @@ using Byte = std::uint8_t;
 [[gnu::always_inline]] inline void dead_ends_of_row(const PlaneRow& r) { find_dead_ends(r.row, r.found, r.width); }
 [[gnu::always_inline]] inline void keys_of_row(const PlaneRow& r) { find_keys(r.row, r.found, r.width); }
 
+bool is_of(const TileSummary& tile, std::uint32_t side) {
+  const std::size_t keys = tile.keys.size();
+  const bool ascends = std::is_sorted(tile.keys.begin(), tile.keys.end(), std::less_equal<>());
+  const bool within = keys == 0 || tile.keys.back() < side * side;
+  const auto stands = [&](const Chain& chain) {
+    const bool has_steps = tile.steps.empty() || (chain.first_step <= tile.steps.size() &&
+                                                  chain.length <= tile.steps.size() - chain.first_step);
+    return chain.from < keys && chain.to < keys && chain.length > 0 && has_steps;
+  };
+  const bool chains = std::all_of(tile.chains.begin(), tile.chains.end(), stands);
+  if (!ascends || !within || !chains) return false;
+  constexpr std::uint8_t most_ends = 4;
+  std::vector<std::uint8_t> ends(keys, 0);
+  for (const Chain& chain : tile.chains) {
+    if (++ends[chain.from] > most_ends || ++ends[chain.to] > most_ends) return false;
+  }
+  const auto crosses = [&](const std::vector<std::uint16_t>& crossing) {
+    return std::all_of(crossing.begin(), crossing.end(), [&](std::uint16_t key) { return key < keys; });
+  };
+  return std::all_of(tile.crossings.begin(), tile.crossings.end(), crosses);
+}
+
+/// Column or row, by the side (0 right, 1 above, 2 left, 3 below), of the points that cross it.
+bool agree(const TileGrid& grid, const TileSummary& tile, const TileSummary& beyond, unsigned side) {
+  const auto place = [&](const TileSummary& of, std::uint16_t key) {
+    const std::uint32_t local = of.keys[key];
+    return side == 0 ? local >> grid.side_log2 : local & (grid.side() - 1);
+  };
+  return std::equal(tile.crossings[side].begin(), tile.crossings[side].end(), beyond.crossings[side ^ 2U].begin(),
+                    beyond.crossings[side ^ 2U].end(), [&](std::uint16_t ours, std::uint16_t theirs) {
+                      return place(tile, ours) == place(beyond, theirs);
+                    });
+}
+
+/// One edge and not kept.
+constexpr bool is_dead_end(unsigned bits) {
+  const unsigned open = bits & edges;
+  return open != 0 && (open & (open - 1)) == 0 && (bits & kept) == 0;
+}
+
+/// Calls visit(i) for each of the bytes that has a bit of `mask`; eight bytes are skipped at once where none has.
+template <class Visit>
+void for_each_with(const std::uint8_t* bytes, int count, std::uint8_t mask, const Visit& visit) {
+  const std::uint64_t masks = 0x0101010101010101U * mask;
+  int i = 0;
+  for (; i + 8 <= count; i += 8) {
+    std::uint64_t word;
+    std::memcpy(&word, bytes + i, 8);
+    for (word &= masks; word != 0;) {
+      const int byte = std::countr_zero(word) / 8;
+      visit(i + byte);
+      word &= ~(std::uint64_t{0xff} << (8 * byte));
+    }
+  }
+  for (; i < count; ++i) {
+    if ((bytes[i] & mask) != 0) visit(i);
+  }
+}
+
+/// Sums of single bits fit a byte for 255 points at a time, so that compilers add 16 or more points at once.
+void count_points(const TilePlane& plane, TileSummary& summary) {
+  constexpr int batch = 64;
+  for (int row = 0; row < plane.height(); ++row) {
+    for (int first = 0; first < plane.width(); first += batch) {
+      const std::uint8_t* at = plane.at(first, row);
+      const std::uint8_t* above = plane.at(first, row + 1);
+      const int n = std::min(batch, plane.width() - first);
+      std::uint8_t stand = 0;
+      std::uint8_t pairs = 0;
+      std::uint8_t open = 0;
+      for (int i = 0; i < n; ++i) {
+        stand = static_cast<std::uint8_t>(stand + ((at[i] >> 4) & 1));
+        pairs = static_cast<std::uint8_t>(pairs + (((at[i] & at[i + 1]) >> 4) & 1) + (((at[i] & above[i]) >> 4) & 1));
+        open = static_cast<std::uint8_t>(open + (at[i] & 1) + ((at[i] >> 1) & 1));
+      }
+      summary.milestones += stand;
+      summary.candidate_edges += pairs;
+      summary.free_edges += open;
+    }
+  }
+}
+
+/// Calls visit(point, direction) for each point at a border and the direction that leads over it, along each border.
+template <class Visit>
+void for_each_at_border(TilePlane& plane, const Visit& visit) {
+  for (int row = 0; row < plane.height(); ++row) {
+    visit(plane.at(plane.width() - 1, row), 0U);
+    visit(plane.at(0, row), 2U);
+  }
+  for (int col = 0; col < plane.width(); ++col) {
+    visit(plane.at(col, plane.height() - 1), 1U);
+    visit(plane.at(col, 0), 3U);
+  }
+}
+
+PlaneRow row_of(TilePlane& plane, int row, std::vector<std::uint8_t>& found) {
+  return {plane.at(0, row), plane.at(0, row + 1), plane.at(0, row - 1), found.data() + 1, plane.width()};
+}
+
+constexpr std::size_t slot_of(std::uint64_t key) { return (key * 0x9e3779b97f4a7c15U) >> 56; }
+
+void clear_bits(std::uint8_t& byte, unsigned bits) { byte = static_cast<std::uint8_t>(byte & ~bits); }
+
+/// What a wall blocks of the point (col, row), its right and its upper edge, as bits; asked only for bits in `wanted`.
+unsigned blocked_bits(const Segment& wall, Vec2 point, unsigned wanted, double clearance) {
+  unsigned blocked = 0;
+  const auto ask = [&](unsigned bit, Vec2 end) {
+    if ((wanted & bit) != 0 && blocks_edge(wall, {point, end}, clearance)) blocked |= bit;
+  };
+  ask(plane_bit::milestone, point);
+  ask(plane_bit::right, {point.x + 1, point.y});
+  ask(plane_bit::up, {point.x, point.y + 1});
+  return blocked;
+}
+
 }  // namespace
 
 void TilePlane::reset(std::size_t tile, const Box& box) {
@@ -108,26 +223,6 @@ const PlaneRowWork& plane_row_work() {
   static const PlaneRowWork fastest = plane_row_variants().back();
   return fastest;
 }
-
-namespace {
-
-constexpr std::size_t slot_of(std::uint64_t key) { return (key * 0x9e3779b97f4a7c15U) >> 56; }
-
-void clear_bits(std::uint8_t& byte, unsigned bits) { byte = static_cast<std::uint8_t>(byte & ~bits); }
-
-/// What a wall blocks of the point (col, row), its right and its upper edge, as bits; asked only for bits in `wanted`.
-unsigned blocked_bits(const Segment& wall, Vec2 point, unsigned wanted, double clearance) {
-  unsigned blocked = 0;
-  const auto ask = [&](unsigned bit, Vec2 end) {
-    if ((wanted & bit) != 0 && blocks_edge(wall, {point, end}, clearance)) blocked |= bit;
-  };
-  ask(plane_bit::milestone, point);
-  ask(plane_bit::right, {point.x + 1, point.y});
-  ask(plane_bit::up, {point.x, point.y + 1});
-  return blocked;
-}
-
-}  // namespace
 
 bool blocks_edge(const Segment& wall, const Segment& edge, double clearance) noexcept {
   if (clearance <= 0.0) return segments_touch(edge, wall);
@@ -233,115 +328,6 @@ void WallMarker::mark_one(const Segment& wall, TilePlane& plane) const {
   }
 }
 
-namespace {
-
-bool is_of(const TileSummary& tile, std::uint32_t side) {
-  const std::size_t keys = tile.keys.size();
-  const bool ascends = std::is_sorted(tile.keys.begin(), tile.keys.end(), std::less_equal<>());
-  const bool within = keys == 0 || tile.keys.back() < side * side;
-  const auto stands = [&](const Chain& chain) {
-    const bool has_steps = tile.steps.empty() || (chain.first_step <= tile.steps.size() &&
-                                                  chain.length <= tile.steps.size() - chain.first_step);
-    return chain.from < keys && chain.to < keys && chain.length > 0 && has_steps;
-  };
-  const bool chains = std::all_of(tile.chains.begin(), tile.chains.end(), stands);
-  if (!ascends || !within || !chains) return false;
-  constexpr std::uint8_t most_ends = 4;
-  std::vector<std::uint8_t> ends(keys, 0);
-  for (const Chain& chain : tile.chains) {
-    if (++ends[chain.from] > most_ends || ++ends[chain.to] > most_ends) return false;
-  }
-  const auto crosses = [&](const std::vector<std::uint16_t>& crossing) {
-    return std::all_of(crossing.begin(), crossing.end(), [&](std::uint16_t key) { return key < keys; });
-  };
-  return std::all_of(tile.crossings.begin(), tile.crossings.end(), crosses);
-}
-
-/// Column or row, by the side (0 right, 1 above, 2 left, 3 below), of the points that cross it.
-bool agree(const TileGrid& grid, const TileSummary& tile, const TileSummary& beyond, unsigned side) {
-  const auto place = [&](const TileSummary& of, std::uint16_t key) {
-    const std::uint32_t local = of.keys[key];
-    return side == 0 ? local >> grid.side_log2 : local & (grid.side() - 1);
-  };
-  return std::equal(tile.crossings[side].begin(), tile.crossings[side].end(), beyond.crossings[side ^ 2U].begin(),
-                    beyond.crossings[side ^ 2U].end(), [&](std::uint16_t ours, std::uint16_t theirs) {
-                      return place(tile, ours) == place(beyond, theirs);
-                    });
-}
-
-using plane_bit::edges, plane_bit::kept, plane_bit::key;
-
-/// One edge and not kept. A table of 64 answers in a word.
-constexpr std::uint64_t dead_end_set = [] {
-  std::uint64_t set = 0;
-  for (unsigned bits = 0; bits < 64; ++bits) {
-    if (std::has_single_bit(bits & edges) && (bits & kept) == 0) set |= std::uint64_t{1} << bits;
-  }
-  return set;
-}();
-constexpr bool is_dead_end(unsigned bits) { return ((dead_end_set >> (bits & 63)) & 1) != 0; }
-
-/// Calls visit(i) for each of the bytes that has a bit of `mask`; eight bytes are skipped at once where none has.
-template <class Visit>
-void for_each_with(const std::uint8_t* bytes, int count, std::uint8_t mask, const Visit& visit) {
-  const std::uint64_t masks = 0x0101010101010101U * mask;
-  int i = 0;
-  for (; i + 8 <= count; i += 8) {
-    std::uint64_t word;
-    std::memcpy(&word, bytes + i, 8);
-    for (word &= masks; word != 0;) {
-      const int byte = std::countr_zero(word) / 8;
-      visit(i + byte);
-      word &= ~(std::uint64_t{0xff} << (8 * byte));
-    }
-  }
-  for (; i < count; ++i) {
-    if ((bytes[i] & mask) != 0) visit(i);
-  }
-}
-
-/// Sums of single bits fit a byte for 255 points at a time, so that compilers add 16 or more points at once.
-void count_points(const TilePlane& plane, TileSummary& summary) {
-  constexpr int batch = 64;
-  for (int row = 0; row < plane.height(); ++row) {
-    for (int first = 0; first < plane.width(); first += batch) {
-      const std::uint8_t* at = plane.at(first, row);
-      const std::uint8_t* above = plane.at(first, row + 1);
-      const int n = std::min(batch, plane.width() - first);
-      std::uint8_t stand = 0;
-      std::uint8_t pairs = 0;
-      std::uint8_t open = 0;
-      for (int i = 0; i < n; ++i) {
-        stand = static_cast<std::uint8_t>(stand + ((at[i] >> 4) & 1));
-        pairs = static_cast<std::uint8_t>(pairs + (((at[i] & at[i + 1]) >> 4) & 1) + (((at[i] & above[i]) >> 4) & 1));
-        open = static_cast<std::uint8_t>(open + (at[i] & 1) + ((at[i] >> 1) & 1));
-      }
-      summary.milestones += stand;
-      summary.candidate_edges += pairs;
-      summary.free_edges += open;
-    }
-  }
-}
-
-/// Calls visit(point, direction) for each point at a border and the direction that leads over it, along each border.
-template <class Visit>
-void for_each_at_border(TilePlane& plane, const Visit& visit) {
-  for (int row = 0; row < plane.height(); ++row) {
-    visit(plane.at(plane.width() - 1, row), 0U);
-    visit(plane.at(0, row), 2U);
-  }
-  for (int col = 0; col < plane.width(); ++col) {
-    visit(plane.at(col, plane.height() - 1), 1U);
-    visit(plane.at(col, 0), 3U);
-  }
-}
-
-PlaneRow row_of(TilePlane& plane, int row, std::vector<std::uint8_t>& found) {
-  return {plane.at(0, row), plane.at(0, row + 1), plane.at(0, row - 1), found.data() + 1, plane.width()};
-}
-
-}  // namespace
-
 void pack_summary(const TileSummary& tile, ValuePacker& to) {
   to.add_list(tile.keys);
   to.add_list(tile.chains);
@@ -380,7 +366,7 @@ void check_borders(const TileGrid& grid, std::span<const TileSummary> tiles, con
 }
 
 TileReduction::TileReduction(const TilePlane& plane)
-    : offset_(plane.offsets()),
+    : offset_{1, plane.stride(), -1, -plane.stride()},
       found_(static_cast<std::size_t>(plane.stride()) + 2),
       number_(static_cast<std::size_t>(plane.stride()) * static_cast<std::size_t>(plane.stride())),
       steps_(2 * std::size_t{plane.grid().side()} * plane.grid().side()) {}
@@ -444,7 +430,7 @@ void TileReduction::number_keys(TilePlane& plane, TileSummary& summary) {
       number_[static_cast<std::size_t>(place)] = static_cast<std::uint16_t>(keys_.size());
       keys_.push_back(static_cast<std::uint16_t>(row * static_cast<int>(plane.grid().side()) + col));
       places_.push_back(place);
-      bits |= key;
+      bits |= plane_bit::key;
     });
   }
 }
@@ -480,7 +466,7 @@ void TileReduction::follow(std::uint8_t* from, unsigned direction, const TilePla
     *step++ = static_cast<std::uint8_t>(direction);
     at += offset_[direction];
     const unsigned bits = *at & ~static_cast<unsigned>(opposite_bit(direction));
-    if ((bits & key) != 0) {
+    if ((bits & plane_bit::key) != 0) {
       *at = static_cast<std::uint8_t>(bits);
       break;
     }

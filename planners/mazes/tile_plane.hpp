@@ -68,8 +68,6 @@ class TilePlane {
   /// Of the point (col, row) of the tile; the ring has -1 and width() or height().
   std::uint8_t* at(int col, int row) { return bytes_.data() + index(col, row); }
   const std::uint8_t* at(int col, int row) const { return bytes_.data() + index(col, row); }
-  /// Where a point's neighbours lie.
-  std::array<int, 4> offsets() const { return {1, stride_, -1, -stride_}; }
 
  private:
   std::ptrdiff_t index(int col, int row) const {
@@ -217,7 +215,7 @@ class TileReduction {
 
   static constexpr int bulk_passes = 4;
 
-  std::array<int, 4> offset_;
+  std::array<int, 4> offset_;        // where a point's neighbours lie
   std::vector<std::uint8_t> found_;  // scratch for a row
   RawVector<std::uint16_t> number_;  // of a key, by place in the plane; of others none
   std::vector<std::uint16_t> keys_;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "planners/mazes/tile_source.hpp"
 
-#include <type_traits>
-
 #include "core/base/error.hpp"
 #include "parallel/asked_memory.hpp"
 
@@ -15,10 +13,6 @@ std::size_t grain_of(std::size_t walls) { return std::max<std::size_t>(16384, (w
 constexpr std::size_t band_bytes = std::size_t{64} << 20;  // smaller bands are not worth their count
 constexpr std::uint32_t most_bands_in_order = 16;
 constexpr std::uint32_t most_bands = 64;
-
-std::size_t bytes_of_tile(const WallCounts& counts, std::size_t tile) {
-  return counts.narrow().of_tile(tile) * sizeof(NarrowWall) + counts.wide().of_tile(tile) * sizeof(DoubleWall);
-}
 
 /// Chunks looked at for all bands together, over the number of chunks.
 double passes(const WallCounts& counts, const TileGrid& grid, const TileBands& bands) {
@@ -75,22 +69,94 @@ void resize_touched(RawVector<Wall>& walls, std::size_t count, const Execution& 
   if (count > room) touch_first(walls, execution);
 }
 
+class PartitionReader : public TileReader {
+ public:
+  explicit PartitionReader(const WallPartition& partition) : partition_(partition) {}
+  TileWalls read(std::size_t tile) override {
+    return partition_.is_filed(tile) ? partition_.of(tile) : partition_.look_up(tile, loose_);
+  }
+
+ private:
+  const WallPartition& partition_;
+  LooseTile loose_;
+};
+
+class CellTiles : public TileSource {
+ public:
+  CellTiles(const CellWallSource& cells, const TileGrid& grid) : cells_(cells), grid_(grid) {}
+
+  std::vector<std::size_t> begin_band(std::uint32_t band, const Execution&) override {
+    return TileBands().tiles(grid_, band);
+  }
+  std::unique_ptr<TileReader> reader() const override { return std::make_unique<Reader>(cells_, grid_); }
+  Box box() const override { return cells_.box(); }
+  void for_each_near(const Box& around, const std::function<void(const Segment&)>& visit) const override {
+    const std::size_t low = grid_.tile_near(around.min);
+    const std::size_t high = grid_.tile_near(around.max);
+    Reader reader(cells_, grid_);
+    for (std::size_t row = low / grid_.tile_cols; row <= high / grid_.tile_cols; ++row) {
+      for (std::size_t col = low % grid_.tile_cols; col <= high % grid_.tile_cols; ++col) {
+        const std::size_t tile = row * grid_.tile_cols + col;
+        reader.read(tile).for_each(grid_, tile, visit);
+      }
+    }
+  }
+
+ private:
+  class Reader : public TileReader {
+   public:
+    Reader(const CellWallSource& cells, const TileGrid& grid) : grid_(grid), cells_(cells.reader()) {}
+    /// Written without branches: every second wall stands, and nobody can guess which.
+    TileWalls read(std::size_t tile) override {
+      cells_->read(tile, tile_);
+      walls_.resize(2 * tile_.walls.size());
+      NarrowWall* out = walls_.data();
+      constexpr int half = narrow_unit / 2;
+      const int middle = static_cast<int>(grid_.side() / 2) * narrow_unit;
+      const auto number = [](int x) { return static_cast<std::int16_t>(x); };
+      for (std::ptrdiff_t row = -1; row < std::ptrdiff_t{tile_.height}; ++row) {
+        const std::uint8_t* const line = tile_.walls.data() + tile_.index(0, row);
+        const std::int16_t low = number(static_cast<int>(row) * narrow_unit - half - middle);
+        const std::int16_t high = number(low + narrow_unit);
+        for (std::ptrdiff_t col = -1; col < std::ptrdiff_t{tile_.width}; ++col) {
+          const std::int16_t left = number(static_cast<int>(col) * narrow_unit - half - middle);
+          const std::int16_t right = number(left + narrow_unit);
+          *out = {right, low, right, high};
+          out += row >= 0 ? line[col] & CellTile::right_wall : 0;
+          *out = {left, high, right, high};
+          out += col >= 0 ? (line[col] & CellTile::upper_wall) >> 1 : 0;
+        }
+      }
+      return {.narrow = {walls_.data(), static_cast<std::size_t>(out - walls_.data())}, .wide = {}, .more = {}};
+    }
+
+   private:
+    const TileGrid& grid_;
+    std::unique_ptr<CellWallReader> cells_;
+    CellTile tile_;
+    std::vector<NarrowWall> walls_;
+  };
+
+  const CellWallSource& cells_;
+  const TileGrid grid_;
+};
+
 }  // namespace
 
 WallCounts::WallCounts(const WallSet& walls, const WallFiler& filer, std::size_t tiles, const Execution& execution)
-    : walls_(walls.size()), grain_(grain_of(walls.size())), tiles_(tiles) {
-  execution.reserve(2 * (chunks() + 1) * tiles * sizeof(std::uint32_t));
-  narrow_ = ChunkCounts(chunks(), tiles);
-  wide_ = ChunkCounts(chunks(), tiles);
+    : walls_(walls.size()),
+      grain_(grain_of(walls.size())),
+      tiles_((execution.reserve(2 * (chunks() + 1) * tiles * sizeof(std::uint32_t)), tiles)),
+      narrow_(chunks(), tiles),
+      wide_(chunks(), tiles) {
   walls.visit([&](auto given) { count(given, filer, execution); });
   narrow_.add_up();
-  any_wide_ ? wide_.add_up() : void(wide_ = {});
+  wide_.add_up();
 }
 
 template <class Wall>
 void WallCounts::count(std::span<const Wall> walls, const WallFiler& filer, const Execution& execution) {
   std::vector<Box> boxes(chunks());
-  std::vector<std::uint8_t> wide_found(chunks());
   for_chunks(walls.size(), grain_, execution, [&](Range r) {
     const std::size_t chunk = r.first / grain_;
     std::uint32_t* const narrow = narrow_.counts(chunk);
@@ -99,26 +165,22 @@ void WallCounts::count(std::span<const Wall> walls, const WallFiler& filer, cons
     std::fill_n(wide, tiles_, 0U);
     const WallFiler own = filer;
     GrowingBox box;
-    bool any_wide = false;
-    const auto count_narrow = [=](std::size_t tile, const detail::WallSteps&) { ++narrow[tile]; };
-    const auto count_wide = [&](std::size_t tile) {
-      ++wide[tile];
-      any_wide = true;
-    };
+    const auto count_narrow = [=](std::size_t tile, const WallSteps&) { ++narrow[tile]; };
+    const auto count_wide = [=](std::size_t tile) { ++wide[tile]; };
     for (const Wall& wall : walls.subspan(r.first, r.size())) {
       box.include(wall);
       own.file(wall, count_narrow, count_wide);
     }
     boxes[chunk] = box.box();
-    wide_found[chunk] = any_wide ? 1 : 0;
   });
   for (const Box& box : boxes) box_.include(box);
-  any_wide_ = std::find(wide_found.begin(), wide_found.end(), 1) != wide_found.end();
 }
 
 TileBands choose_bands(const WallCounts& counts, const TileGrid& grid, const Execution& execution) {
   std::size_t bytes = 0;
-  for (std::size_t tile = 0; tile < counts.tiles(); ++tile) bytes += bytes_of_tile(counts, tile);
+  for (std::size_t tile = 0; tile < counts.tiles(); ++tile) {
+    bytes += counts.narrow().of_tile(tile) * sizeof(NarrowWall) + counts.wide().of_tile(tile) * sizeof(DoubleWall);
+  }
   if (bytes <= band_bytes) return {};
   const auto bands = [&](bool by_rows, std::size_t count) {
     return TileBands{
@@ -194,8 +256,7 @@ void WallPartition::scatter(std::span<const Wall> walls, std::span<const std::si
       return next;
     };
     std::vector<std::uint32_t> narrow_places = places(counts_.narrow(), first_narrow_);
-    std::vector<std::uint32_t> wide_places;
-    if (counts_.any_wide()) wide_places = places(counts_.wide(), first_wide_);
+    std::vector<std::uint32_t> wide_places = places(counts_.wide(), first_wide_);
     std::uint32_t* const narrow = narrow_places.data();
     std::uint32_t* const wide = wide_places.data();
     NarrowWall* const narrow_walls = narrow_.data();
@@ -220,21 +281,17 @@ void WallPartition::scatter(std::span<const Wall> walls, std::span<const std::si
 }
 
 TileWalls WallPartition::of(std::size_t tile) const {
-  const auto part = [tile](const auto& walls, const auto& first, const ChunkCounts& counts) {
-    using Wall = typename std::decay_t<decltype(walls)>::value_type;
-    if (walls.empty()) return std::span<const Wall>();
-    return std::span<const Wall>(walls.data() + first[tile], counts.of_tile(tile));
-  };
-  return {part(narrow_, first_narrow_, counts_.narrow()), part(wide_, first_wide_, counts_.wide()), more_};
+  return {std::span(narrow_).subspan(first_narrow_[tile], counts_.narrow().of_tile(tile)),
+          std::span(wide_).subspan(first_wide_[tile], counts_.wide().of_tile(tile)), more_};
 }
 
-TileWalls WallPartition::look_up(std::size_t tile, LooseTile& into, const Execution& execution) const {
+TileWalls WallPartition::look_up(std::size_t tile, LooseTile& into) const {
   const std::uint64_t middle = middle_of(grid_, tile);
   into = {};
   walls_.visit([&](auto walls) {
     for (std::size_t chunk = 0; chunk < counts_.chunks(); ++chunk) {
       if (!counts_.has(chunk, tile)) continue;
-      execution.check();
+      execution_.check();
       for (std::size_t i = counts_.chunk(chunk).first; i < counts_.chunk(chunk).last; ++i) {
         filer_.file(
             walls[i],
@@ -250,159 +307,13 @@ TileWalls WallPartition::look_up(std::size_t tile, LooseTile& into, const Execut
   return {into.narrow, into.wide, more_};
 }
 
-namespace {
-
-void for_each_held(const WallSet& walls, std::span<const Segment> more,
-                   const std::function<void(const Segment&)>& visit) {
-  walls.visit([&](auto held) {
-    for (const auto& wall : held) visit(wall.segment());
-  });
-  for (const Segment& wall : more) visit(wall);
-}
-
-class PartitionReader : public TileReader {
- public:
-  PartitionReader(const WallPartition& partition, const Execution& execution)
-      : partition_(partition), execution_(execution) {}
-  TileWalls read(std::size_t tile) override {
-    return partition_.is_filed(tile) ? partition_.of(tile) : partition_.look_up(tile, loose_, execution_);
-  }
-
- private:
-  const WallPartition& partition_;
-  const Execution& execution_;
-  LooseTile loose_;
-};
-
-/// A few walls among the milestones of one tile: one pass, and nothing is counted.
-class OneTile : public TileSource {
- public:
-  static bool takes(const WallSet& walls, const TileGrid& grid) {
-    return grid.count() == 1 && walls.size() <= most_walls;
-  }
-  OneTile(const WallSet& walls, std::span<const Segment> more, const TileGrid& grid, double halo)
-      : walls_(walls), more_(more), grid_(grid), narrow_(walls.size()) {
-    walls.visit([&](auto given) { file(given, WallFiler(grid_, halo)); });
-  }
-
-  std::vector<std::size_t> begin_band(std::uint32_t, const Execution&) override { return {0}; }
-  std::unique_ptr<TileReader> reader() const override { return std::make_unique<Reader>(*this); }
-  Box box() const override { return box_; }
-  void for_each_near(const Box&, const std::function<void(const Segment&)>& visit) const override {
-    for_each_held(walls_, more_, visit);
-  }
-
- private:
-  static constexpr std::size_t most_walls = std::size_t{1} << 14;
-
-  class Reader : public TileReader {
-   public:
-    explicit Reader(const OneTile& tile) : tile_(tile) {}
-    TileWalls read(std::size_t) override { return {tile_.narrow_, tile_.wide_, tile_.more_}; }
-
-   private:
-    const OneTile& tile_;
-  };
-
-  template <class Wall>
-  void file(std::span<const Wall> walls, const WallFiler& filer) {
-    const std::uint64_t middle = detail::middle_of(grid_, 0);
-    NarrowWall* end = narrow_.data();
-    GrowingBox box;
-    for (const Wall& wall : walls) {
-      box.include(wall);
-      filer.file(
-          wall, [&](std::size_t, const detail::WallSteps& steps) { *end++ = steps.from(middle); },
-          [&](std::size_t) { wide_.push_back(widened(wall)); });
-    }
-    narrow_.resize(static_cast<std::size_t>(end - narrow_.data()));
-    box_ = box.box();
-  }
-
-  const WallSet& walls_;
-  std::span<const Segment> more_;
-  const TileGrid grid_;
-  RawVector<NarrowWall> narrow_;
-  RawVector<DoubleWall> wide_;
-  Box box_;
-};
-
-class CellTiles : public TileSource {
- public:
-  CellTiles(const CellWallSource& cells, const TileGrid& grid) : cells_(cells), grid_(grid) {}
-
-  std::vector<std::size_t> begin_band(std::uint32_t band, const Execution&) override {
-    return TileBands().tiles(grid_, band);
-  }
-  std::unique_ptr<TileReader> reader() const override { return std::make_unique<Reader>(cells_, grid_); }
-  Box box() const override { return cells_.box(); }
-  void for_each_near(const Box& around, const std::function<void(const Segment&)>& visit) const override {
-    const std::size_t low = grid_.tile_near(around.min);
-    const std::size_t high = grid_.tile_near(around.max);
-    Reader reader(cells_, grid_);
-    for (std::size_t row = low / grid_.tile_cols; row <= high / grid_.tile_cols; ++row) {
-      for (std::size_t col = low % grid_.tile_cols; col <= high % grid_.tile_cols; ++col) {
-        const std::size_t tile = row * grid_.tile_cols + col;
-        reader.read(tile).for_each(grid_, tile, visit);
-      }
-    }
-  }
-
- private:
-  class Reader : public TileReader {
-   public:
-    Reader(const CellWallSource& cells, const TileGrid& grid) : grid_(grid), cells_(cells.reader()) {}
-    /// Written without branches: every second wall stands, and nobody can guess which.
-    TileWalls read(std::size_t tile) override {
-      cells_->read(tile, tile_);
-      walls_.resize(2 * tile_.walls.size());
-      NarrowWall* out = walls_.data();
-      constexpr int half = narrow_unit / 2;
-      const int middle = static_cast<int>(grid_.side() / 2) * narrow_unit;
-      const auto number = [](int x) { return static_cast<std::int16_t>(x); };
-      for (std::ptrdiff_t row = -1; row < std::ptrdiff_t{tile_.height}; ++row) {
-        const std::uint8_t* const line = tile_.walls.data() + tile_.index(0, row);
-        const std::int16_t low = number(static_cast<int>(row) * narrow_unit - half - middle);
-        const std::int16_t high = number(low + narrow_unit);
-        for (std::ptrdiff_t col = -1; col < std::ptrdiff_t{tile_.width}; ++col) {
-          const std::int16_t left = number(static_cast<int>(col) * narrow_unit - half - middle);
-          const std::int16_t right = number(left + narrow_unit);
-          *out = {right, low, right, high};
-          out += row >= 0 ? line[col] & CellTile::right_wall : 0;
-          *out = {left, high, right, high};
-          out += col >= 0 ? (line[col] & CellTile::upper_wall) >> 1 : 0;
-        }
-      }
-      return {.narrow = {walls_.data(), static_cast<std::size_t>(out - walls_.data())}, .wide = {}, .more = {}};
-    }
-
-   private:
-    const TileGrid& grid_;
-    std::unique_ptr<CellWallReader> cells_;
-    CellTile tile_;
-    std::vector<NarrowWall> walls_;
-  };
-
-  const CellWallSource& cells_;
-  const TileGrid grid_;
-};
-
-}  // namespace
-
-std::unique_ptr<TileReader> WallPartition::reader() const {
-  return std::make_unique<PartitionReader>(*this, execution_);
-}
+std::unique_ptr<TileReader> WallPartition::reader() const { return std::make_unique<PartitionReader>(*this); }
 
 void WallPartition::for_each_near(const Box&, const std::function<void(const Segment&)>& visit) const {
-  for_each_held(walls_, more_, visit);
-}
-
-std::unique_ptr<TileSource> held_tiles(const WallSet& walls, std::span<const Segment> more, const TileGrid& grid,
-                                       double halo, std::uint32_t bands, const Execution& execution) {
-  if (OneTile::takes(walls, grid)) return std::make_unique<OneTile>(walls, more, grid, halo);
-  std::optional<TileBands> asked;
-  if (bands > 0) asked = TileBands{std::min(bands, grid.tile_cols)};
-  return std::make_unique<WallPartition>(walls, more, grid, halo, execution, asked);
+  walls_.visit([&](auto held) {
+    for (const auto& wall : held) visit(wall.segment());
+  });
+  for (const Segment& wall : more_) visit(wall);
 }
 
 std::unique_ptr<TileSource> cell_tiles(const CellWallSource& cells, const TileGrid& grid) {

@@ -18,7 +18,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -35,44 +34,6 @@
 #include "planners/mazes/tile_grid.hpp"
 
 namespace warren {
-
-/// Which walls of a tile come near a place? Two at once, in whole steps: a look at all walls of a tile costs some
-/// instructions a wall. A box in the steps of a tile's narrow walls.
-class NarrowBox {
- public:
-  /// Holds what narrow walls of the tile can reach of `box`; some steps wider, for rounding.
-  NarrowBox(const TileGrid& grid, std::size_t tile, const Box& box) {
-    const Vec2 middle = grid.middle_of(tile);
-    const auto steps = [](double x, double more) {
-      return static_cast<std::int16_t>(std::clamp(x * narrow_unit + more, -32768.0, 32767.0));
-    };
-    const std::int16_t low_x = steps(box.min.x - middle.x, -2);
-    const std::int16_t low_y = steps(box.min.y - middle.y, -2);
-    const std::int16_t high_x = steps(box.max.x - middle.x, 2);
-    const std::int16_t high_y = steps(box.max.y - middle.y, 2);
-    low_ = Ends{low_x, low_y, low_x, low_y, low_x, low_y, low_x, low_y};
-    high_ = Ends{high_x, high_y, high_x, high_y, high_x, high_y, high_x, high_y};
-  }
-
-  /// Bit 0: the box of the first wall meets this one; bit 1: that of the second one, if there are two.
-  unsigned meets(const NarrowWall* walls, bool single) const {
-    Ends ends{};
-    std::memcpy(&ends, walls, single ? sizeof(NarrowWall) : sizeof ends);
-    const Ends others = __builtin_shufflevector(ends, ends, 2, 3, 0, 1, 6, 7, 4, 5);
-    const Ends least = ends < others ? ends : others;
-    const Ends most = ends > others ? ends : others;
-    const Ends off = (least > high_) | (most < low_);
-    std::uint64_t parts[2];
-    std::memcpy(parts, &off, sizeof parts);
-    return (parts[0] == 0 ? 1U : 0U) | (parts[1] == 0 ? 2U : 0U);
-  }
-
- private:
-  using Ends = std::int16_t __attribute__((vector_size(16)));  // x1 y1 x2 y2 of two walls
-
-  Ends low_;
-  Ends high_;
-};
 
 /// Where a wall passes a horizontal band: what keeps the cost of a long slanted wall at the cells that it passes
 /// instead of all cells of its box.
@@ -165,11 +126,10 @@ class WallFiler {
 
 /// How many walls of each chunk of the list go to each tile: with that, any tiles can be filed by themselves, each wall
 /// where it would stand if all were, and chunks that have nothing for them are passed over. One pass over the walls.
-/// Borders of chunks depend on the number of walls alone. Memory: 4 bytes a chunk and tile, twice where walls are wide.
-/// Of the narrow or of the wide walls. Immutable after its construction.
+/// Borders of chunks depend on the number of walls alone. Memory: 4 bytes a chunk and tile. Of the narrow or of the
+/// wide walls. Immutable after its construction.
 class ChunkCounts {
  public:
-  ChunkCounts() = default;
   ChunkCounts(std::size_t chunks, std::size_t tiles) : chunks_(chunks), tiles_(tiles), before_((chunks + 1) * tiles) {}
 
   /// A chunk's counts, to be filled in.
@@ -183,11 +143,11 @@ class ChunkCounts {
   /// Walls of the tile in the chunks before this one.
   std::uint32_t before(std::size_t chunk, std::size_t tile) const { return before_[chunk * tiles_ + tile]; }
   std::uint32_t of(std::size_t chunk, std::size_t tile) const { return before(chunk + 1, tile) - before(chunk, tile); }
-  std::uint32_t of_tile(std::size_t tile) const { return chunks_ == 0 ? 0 : before(chunks_, tile); }
+  std::uint32_t of_tile(std::size_t tile) const { return before(chunks_, tile); }
 
  private:
-  std::size_t chunks_ = 0;
-  std::size_t tiles_ = 0;
+  std::size_t chunks_;
+  std::size_t tiles_;
   RawVector<std::uint32_t> before_;  // first row: nothing; then counts, at last what they sum up to
 };
 
@@ -203,9 +163,8 @@ class WallCounts {
   const ChunkCounts& narrow() const { return narrow_; }
   const ChunkCounts& wide() const { return wide_; }
   bool has(std::size_t chunk, std::size_t tile) const {
-    return narrow_.of(chunk, tile) > 0 || (any_wide_ && wide_.of(chunk, tile) > 0);
+    return narrow_.of(chunk, tile) > 0 || wide_.of(chunk, tile) > 0;
   }
-  bool any_wide() const { return any_wide_; }
   /// Of all walls.
   const Box& box() const { return box_; }
 
@@ -217,8 +176,7 @@ class WallCounts {
   std::size_t grain_;
   std::size_t tiles_;
   ChunkCounts narrow_;
-  ChunkCounts wide_;  // empty where no wall is
-  bool any_wide_ = false;
+  ChunkCounts wide_;
   Box box_;
 };
 
@@ -264,12 +222,21 @@ struct TileWalls {
   /// The same for those whose box meets this one, and perhaps some that nearly do.
   template <class Visit>
   void for_each_around(const TileGrid& grid, std::size_t tile, const Box& around, const Visit& visit) const {
-    const NarrowBox box(grid, tile, around);
-    for (std::size_t i = 0; i < narrow.size(); i += 2) {
-      const bool single = i + 1 == narrow.size();
-      const unsigned meet = box.meets(narrow.data() + i, single);
-      if ((meet & 1U) != 0) visit(grid.segment(tile, narrow[i]));
-      if ((meet & 2U) != 0 && !single) visit(grid.segment(tile, narrow[i + 1]));
+    constexpr std::int32_t rounding = 2;  // steps, more than what is cut off
+    const auto steps = [](double x) {
+      constexpr double most = 1 << 20;  // beyond what narrow walls have
+      return static_cast<std::int32_t>(std::clamp(x * narrow_unit, -most, most));
+    };
+    const Vec2 low = around.min - grid.middle_of(tile);
+    const Vec2 high = around.max - grid.middle_of(tile);
+    const std::int32_t left = steps(low.x) - rounding;
+    const std::int32_t right = steps(high.x) + rounding;
+    const std::int32_t bottom = steps(low.y) - rounding;
+    const std::int32_t top = steps(high.y) + rounding;
+    for (const NarrowWall& w : narrow) {
+      if (std::max(w.x1, w.x2) < left || std::min(w.x1, w.x2) > right) continue;
+      if (std::max(w.y1, w.y2) < bottom || std::min(w.y1, w.y2) > top) continue;
+      visit(grid.segment(tile, w));
     }
     for_each_wide(visit);
   }
@@ -329,7 +296,7 @@ class WallPartition : public TileSource {
   /// Of a tile that is filed.
   TileWalls of(std::size_t tile) const;
   /// Of any tile: looks through the chunks that have walls of it.
-  TileWalls look_up(std::size_t tile, LooseTile& into, const Execution& execution) const;
+  TileWalls look_up(std::size_t tile, LooseTile& into) const;
 
  private:
   static constexpr std::uint32_t nothing = ~std::uint32_t{0};
@@ -350,12 +317,6 @@ class WallPartition : public TileSource {
   RawVector<NarrowWall> narrow_;
   RawVector<DoubleWall> wide_;
 };
-
-/// Walls that are held, filed by tile, in so many bands of columns; 0: chosen by their number, order and the memory
-/// that is left. A few walls in one tile are filed in one pass, without being counted. Refers to walls, more, grid and
-/// execution. Throws as WallPartition.
-std::unique_ptr<TileSource> held_tiles(const WallSet& walls, std::span<const Segment> more, const TileGrid& grid,
-                                       double halo, std::uint32_t bands, const Execution& execution);
 
 /// Walls on the sides of unit cells, made tile by tile; the grid's tiles are the source's. A tile is given its own
 /// sides alone, which is enough for clearances below most_cell_clearance: whatever else stands half a step off its

@@ -85,13 +85,6 @@ struct PathPiece {
   std::vector<std::size_t> tiles;  // those that it passes, ascending
 };
 
-/// A chain that a path takes: key numbers of its tile, the lower first.
-struct PathChain {
-  std::size_t tile;
-  std::uint16_t from, to;
-  std::uint32_t length;
-};
-
 /// A path of the overlay with all that its chains stand for, whole or in pieces: a piece needs the summaries of the
 /// tiles that it passes and no others. A leg leads from one vertex of the path to the next. Memory: 8 bytes a leg.
 /// Refers to all that it is made of.
@@ -135,9 +128,9 @@ class PathExpansion {
     }
     return {{first, last}, {tiles.begin(), tiles.end()}};
   }
-  /// Those of more than one step among these legs, in their order.
-  std::vector<PathChain> chains_of(Range legs) const {
-    std::vector<PathChain> chains;
+  /// Those of more than one step among these legs, in their order; their ends are key numbers of their tiles.
+  std::vector<TileChain> chains_of(Range legs) const {
+    std::vector<TileChain> chains;
     for (std::size_t leg = legs.first; leg < legs.last; ++leg) {
       if (leg % legs_a_chunk == 0) execution_.check();
       if (first_[leg + 1] - first_[leg] > 1) chains.push_back(chain_of(leg));
@@ -155,7 +148,7 @@ class PathExpansion {
           *at = place_of(path_[leg + 1], tiles);
           continue;
         }
-        const PathChain taken = chain_of(leg);
+        const TileChain taken = chain_of(leg);
         const TileSummary& tile = tiles[taken.tile];
         const Chain& chain = chain_between(tile, taken.from, taken.to, taken.length);
         walk_chain(tile, chain, path_[leg] < path_[leg + 1], place_of(path_[leg], tiles), at);
@@ -181,7 +174,7 @@ class PathExpansion {
     return TileGrid::point(grid_.first_col(tile) + local % side, grid_.first_row(tile) + local / side);
   }
   /// Of a leg of more than one step.
-  PathChain chain_of(std::size_t leg) const {
+  TileChain chain_of(std::size_t leg) const {
     const std::size_t tile = overlay_.tile_of(path_[leg]);
     const VertexId first = overlay_.first_key(tile);
     const auto [low, high] = std::minmax(path_[leg], path_[leg + 1]);
@@ -195,6 +188,54 @@ class PathExpansion {
   std::span<const VertexId> path_;
   const Execution& execution_;
   std::vector<std::size_t> first_;  // where the points of each leg go, its beginning not counted; and the end
+};
+
+/// Makes tiles: the scratch of one thread. Refers to what the world refers to, and to ends.
+class TileMaker {
+ public:
+  TileMaker(const LatticeWorld& world, const OverlayEnds& ends)
+      : world_(world),
+        ends_(ends),
+        reader_(world.tiles.reader()),
+        marker_(world.clearance),
+        plane_(world.grid, marker_.margin()),
+        reduction_(plane_),
+        bytes_(std::size_t{world.grid.side()} * world.grid.side() / 4) {}
+
+  /// The tile's roadmap before its reduction, good until the next is made.
+  TilePlane& plane_of(std::size_t tile) {
+    plane_.reset(tile, world_.box);
+    marker_.mark(reader_->read(tile), plane_);
+    return plane_;
+  }
+  TileSummary make(std::size_t tile, const Execution& execution) {
+    execution.reserve(bytes_);
+    plane_of(tile);
+    keep_linked();
+    TileSummary summary = reduction_.reduce(plane_);
+    bytes_ = summary.bytes();
+    return summary;
+  }
+
+ private:
+  /// What start and goal join stays.
+  void keep_linked() {
+    for (const EndLinks* end : {&ends_.start, &ends_.goal}) {
+      for (const EndLink& link : end->links) {
+        if (world_.grid.tile_at(link.col, link.row) != plane_.tile()) continue;
+        *plane_.at(static_cast<int>(link.col - world_.grid.first_col(plane_.tile())),
+                   static_cast<int>(link.row - world_.grid.first_row(plane_.tile()))) |= plane_bit::kept;
+      }
+    }
+  }
+
+  const LatticeWorld world_;
+  const OverlayEnds& ends_;
+  std::unique_ptr<TileReader> reader_;
+  WallMarker marker_;
+  TilePlane plane_;
+  TileReduction reduction_;
+  std::size_t bytes_;  // of the last tile: the next one will take about as many
 };
 
 /// One plan: what its stages share.
@@ -211,7 +252,7 @@ class TiledPlan {
     partition();
     if (!join_ends()) return;
     solution_.counters.rounds = 1;
-    reduce_tiles();
+    make_all();
     solution_.counters.samples = std::uint64_t{grid_.rows} * grid_.cols;
     if (search_is_elsewhere()) return search_elsewhere();
     build_overlay();
@@ -230,7 +271,9 @@ class TiledPlan {
     } else {
       const StageTimer timer(execution_, "index", solution_.seconds.index, 2 * problem_.walls.size());
       const double halo = 1.0 + clearance_ * (1 + 1e-9) + 0.01;  // an edge's length, its clearance, and rounding
-      source_ = held_tiles(problem_.walls, problem_.more_walls, grid_, halo, problem_.bands, execution_);
+      std::optional<TileBands> asked;
+      if (problem_.bands > 0) asked = TileBands{std::min(problem_.bands, grid_.tile_cols)};
+      source_ = std::make_unique<WallPartition>(problem_.walls, problem_.more_walls, grid_, halo, execution_, asked);
     }
     box_ = problem_.box.value_or(source_->box());
   }
@@ -253,19 +296,16 @@ class TiledPlan {
     return ends_.start.free && ends_.goal.free;
   }
 
-  LatticeTiles tiles_made() const {
-    const std::size_t grain = problem_.cells != nullptr ? 8 : 1;  // a reader's scratch is large
-    return {world(), ends_, grain};
-  }
+  /// Tiles that a thread makes at once.
+  std::size_t grain() const { return problem_.cells != nullptr ? 8 : 1; }  // a reader's scratch is large
   /// Fills in the summaries of these tiles, with steps.
   void make(std::span<const std::size_t> tiles) {
-    std::vector<TileSummary> made(tiles.size());
-    tiles_made().reduce(tiles, made, execution_);
+    std::vector<TileSummary> made = reduce_tiles(world(), ends_, grain(), tiles, execution_);
     for (std::size_t i = 0; i < made.size(); ++i) tiles_[tiles[i]] = std::move(made[i]);
   }
 
   /// Walls that are held, a band after the other.
-  void reduce_bands() {
+  void make_bands() {
     tiles_.resize(grid_.count());
     for (std::uint32_t band = 0; band < source_->band_count(); ++band) {
       std::vector<std::size_t> tiles;
@@ -278,18 +318,15 @@ class TiledPlan {
     }
   }
 
-  void reduce_tiles() {
+  void make_all() {
     execution_.reserve(grid_.count() * sizeof(TileSummary));
     if (source_->band_count() > 1) {
-      reduce_bands();
+      make_bands();
     } else {
       const StageTimer timer(execution_, "connect", solution_.seconds.connect, grid_.count());
-      if (problem_.others != nullptr) {
-        tiles_ = problem_.others->reduce_all(ends_, execution_);
-      } else {
-        tiles_.resize(grid_.count());
-        tiles_made().reduce({0, grid_.count()}, !problem_.forget, tiles_, problem_.kept, execution_);
-      }
+      tiles_ = problem_.others != nullptr ? problem_.others->reduce_all(ends_, execution_)
+                                          : reduce_tiles(world(), ends_, grain(), {0, grid_.count()}, !problem_.forget,
+                                                         problem_.kept, execution_);
     }
     const bool come_from_elsewhere = problem_.others != nullptr || problem_.kept != nullptr;
     if (come_from_elsewhere && !search_is_elsewhere()) check_borders(grid_, tiles_, execution_);
@@ -319,11 +356,10 @@ class TiledPlan {
       tiles_.resize(grid_.count());
       return make(piece.tiles);
     }
-    const std::vector<PathChain> chains = path.chains_of(piece.legs);
-    std::vector<TileChain> asked;
-    for (const PathChain& chain : chains) {
-      const auto& keys = tiles_[chain.tile].keys;
-      asked.push_back({chain.tile, keys[chain.from], keys[chain.to], chain.length});
+    const std::vector<TileChain> chains = path.chains_of(piece.legs);
+    std::vector<TileChain> asked = chains;
+    for (TileChain& chain : asked) {
+      for (std::uint16_t* end : {&chain.from, &chain.to}) *end = tiles_[chain.tile].keys[*end];
     }
     const std::vector<std::vector<std::uint8_t>> steps = problem_.others->steps_of(asked, execution_);
     for (std::size_t i = 0; i < chains.size(); ++i) {
@@ -379,9 +415,9 @@ class TiledPlan {
 
   bool joined() {
     const StageTimer timer(execution_, "reduce", solution_.seconds.reduce, overlay_->vertex_count());
-    const OverlayComponents components(*overlay_, {0, overlay_->vertex_count()}, execution_);
-    solution_.roadmap.components += components.count();
-    const bool joined = components.root(overlay_->start()) == components.root(overlay_->goal());
+    const Components parts = components(*overlay_, {0, overlay_->vertex_count()}, execution_);
+    solution_.roadmap.components += parts.count;
+    const bool joined = parts.connected(overlay_->start(), overlay_->goal());
     if (!joined) solution_.outcome = Outcome::not_connected;
     return joined;
   }
@@ -472,20 +508,10 @@ class TiledPlan {
     const VertexId of_goal = label[overlay_->goal()];
     const auto is_of_one = [&](VertexId of_key) { return of_key == of_start || of_key == of_goal; };
     if (std::none_of(own.begin(), own.end(), is_of_one)) return {};
-    const LatticeTiles made = tiles_made();
-    const std::unique_ptr<TileReader> reader = source_->reader();
-    WallMarker marker(clearance_);
-    TilePlane plane(grid_, marker.margin());
     execution_.reserve(std::size_t{grid_.side()} * grid_.side() * sizeof(Vec2));
-    std::vector<std::uint16_t> keys;
-    if (tiles_.empty()) {
-      made.make_plane(tile, *reader, marker, plane);
-      made.keep_linked(plane);
-      keys = TileReduction(plane).reduce(plane).keys;
-    } else {
-      keys = tiles_[tile].keys;
-    }
-    made.make_plane(tile, *reader, marker, plane);
+    TileMaker maker(world(), ends_);
+    const std::vector<std::uint16_t> keys = tiles_.empty() ? maker.make(tile, execution_).keys : tiles_[tile].keys;
+    TilePlane& plane = maker.plane_of(tile);
     PointsOfBoth points;
     for (std::size_t k = 0; k < keys.size(); ++k) {
       if (!is_of_one(own[k])) continue;
@@ -545,70 +571,30 @@ Solution<Vec2> tiled_prm(const TiledProblem& problem, const RoadmapOptions& opti
   return run_plan(plan);
 }
 
-/// The scratch of one thread.
-class LatticeTiles::Maker {
- public:
-  explicit Maker(const LatticeTiles& tiles)
-      : tiles_(tiles),
-        reader_(tiles.world_.tiles.reader()),
-        marker_(tiles.world_.clearance),
-        plane_(tiles.world_.grid, marker_.margin()),
-        reduction_(plane_),
-        bytes_(std::size_t{tiles.world_.grid.side()} * tiles.world_.grid.side() / 4) {}
-
-  TileSummary make(std::size_t tile, const Execution& execution) {
-    execution.reserve(bytes_);
-    tiles_.make_plane(tile, *reader_, marker_, plane_);
-    tiles_.keep_linked(plane_);
-    TileSummary summary = reduction_.reduce(plane_);
-    bytes_ = summary.bytes();
-    return summary;
-  }
-
- private:
-  const LatticeTiles& tiles_;
-  std::unique_ptr<TileReader> reader_;
-  WallMarker marker_;
-  TilePlane plane_;
-  TileReduction reduction_;
-  std::size_t bytes_;  // of the last tile: the next one will take about as many
-};
-
-void LatticeTiles::make_plane(std::size_t tile, TileReader& reader, WallMarker& marker, TilePlane& plane) const {
-  plane.reset(tile, world_.box);
-  marker.mark(reader.read(tile), plane);
-}
-
-void LatticeTiles::keep_linked(TilePlane& plane) const {
-  for (const EndLinks* end : {&ends_.start, &ends_.goal}) {
-    for (const EndLink& link : end->links) {
-      if (world_.grid.tile_at(link.col, link.row) != plane.tile()) continue;
-      *plane.at(static_cast<int>(link.col - world_.grid.first_col(plane.tile())),
-                static_cast<int>(link.row - world_.grid.first_row(plane.tile()))) |= plane_bit::kept;
-    }
-  }
-}
-
-void LatticeTiles::reduce(Range tiles, bool with_steps, std::span<TileSummary> summaries, KeptParts* kept,
-                          const Execution& execution) const {
-  for_chunks(tiles.size(), grain_, execution, [&](Range r) {
-    const std::span<TileSummary> part = summaries.subspan(r.first, r.size());
-    if (kept != nullptr && take_kept(*kept, tiles.first + r.first, world_.grid.side(), part)) return;
-    Maker maker(*this);
+std::vector<TileSummary> reduce_tiles(const LatticeWorld& world, const OverlayEnds& ends, std::size_t grain,
+                                      Range tiles, bool with_steps, KeptParts* kept, const Execution& execution) {
+  std::vector<TileSummary> summaries(tiles.size());
+  for_chunks(tiles.size(), grain, execution, [&](Range r) {
+    const std::span<TileSummary> part = std::span(summaries).subspan(r.first, r.size());
+    if (kept != nullptr && take_kept(*kept, tiles.first + r.first, world.grid.side(), part)) return;
+    TileMaker maker(world, ends);
     for (std::size_t i = 0; i < part.size(); ++i) {
       part[i] = maker.make(tiles.first + r.first + i, execution);
       if (!with_steps) let_go(part[i].steps);
     }
     if (kept != nullptr) keep(*kept, tiles.first + r.first, part);
   });
+  return summaries;
 }
 
-void LatticeTiles::reduce(std::span<const std::size_t> tiles, std::span<TileSummary> summaries,
-                          const Execution& execution) const {
-  for_chunks(tiles.size(), grain_, execution, [&](Range r) {
-    Maker maker(*this);
+std::vector<TileSummary> reduce_tiles(const LatticeWorld& world, const OverlayEnds& ends, std::size_t grain,
+                                      std::span<const std::size_t> tiles, const Execution& execution) {
+  std::vector<TileSummary> summaries(tiles.size());
+  for_chunks(tiles.size(), grain, execution, [&](Range r) {
+    TileMaker maker(world, ends);
     for (std::size_t i = r.first; i < r.last; ++i) summaries[i] = maker.make(tiles[i], execution);
   });
+  return summaries;
 }
 
 }  // namespace warren

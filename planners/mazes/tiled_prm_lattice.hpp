@@ -6,7 +6,7 @@
 //   tiles       one thread a tile, all in its cache: milestones and edges stand until a    (tile_plane)
 //               wall clears them; dead ends are peeled, chains contracted
 //   overlay     what is left of all tiles, peeled again across borders                      (overlay)
-//   search      from both ends on the overlay's core; the path's chains are expanded again  (overlay_search)
+//   search      from both ends on the overlay's core; the path's chains are expanded again  (overlay)
 //
 // The answer is the plain pipeline's: the same milestones and edges, a path of the same length (shortest paths that tie
 // may differ in their vertices). Peeling and contraction are exact for any set of walls: mazes with loops, open space,
@@ -34,7 +34,6 @@
 #include "parallel/chunks.hpp"
 #include "planners/graph/roadmap_options.hpp"
 #include "planners/mazes/overlay.hpp"
-#include "planners/mazes/overlay_search.hpp"
 #include "planners/mazes/tile_plane.hpp"
 #include "planners/mazes/tile_source.hpp"
 
@@ -92,31 +91,16 @@ bool tiled_prm_applies(const RoadmapOptions& options, double clearance);
 /// tiled_prm_applies() is false, for cells and a clearance of half a cell, or for options out of range.
 Solution<Vec2> tiled_prm(const TiledProblem& problem, const RoadmapOptions& options, const Execution& execution);
 
-/// The first stages of the tiled lattice roadmap: each tile's milestones and edges, and its reduction, by all threads.
-/// Tiles share nothing: any of them may be made here, in an earlier run, or by another process. Refers to what the
-/// world refers to, and to ends.
-class LatticeTiles {
- public:
-  /// grain: tiles that a thread makes at once.
-  LatticeTiles(const LatticeWorld& world, const OverlayEnds& ends, std::size_t grain)
-      : world_(world), ends_(ends), grain_(grain) {}
+// The first stages of the tiled lattice roadmap: each tile's milestones and edges, and its reduction, by all threads,
+// each of which makes `grain` tiles at once. Tiles share nothing: any of them may be made here, in an earlier run, or
+// by another process.
 
-  /// The tile's roadmap before its reduction; what start and goal join is marked by keep_linked().
-  void make_plane(std::size_t tile, TileReader& reader, WallMarker& marker, TilePlane& plane) const;
-  void keep_linked(TilePlane& plane) const;
-  /// Fills in summaries[i] of tile tiles.first + i. kept, where given, has those of an earlier run, without steps,
-  /// and takes those that are made. Throws Stopped.
-  void reduce(Range tiles, bool with_steps, std::span<TileSummary> summaries, KeptParts* kept,
-              const Execution& execution) const;
-  /// Fills in summaries[i], with steps, of tile tiles[i].
-  void reduce(std::span<const std::size_t> tiles, std::span<TileSummary> summaries, const Execution& execution) const;
-
- private:
-  class Maker;
-
-  const LatticeWorld world_;
-  const OverlayEnds& ends_;
-  const std::size_t grain_;
-};
+/// Of tiles in a row. kept, where given, has those of an earlier run, without steps, and takes those that are made.
+/// Throws Stopped.
+std::vector<TileSummary> reduce_tiles(const LatticeWorld& world, const OverlayEnds& ends, std::size_t grain,
+                                      Range tiles, bool with_steps, KeptParts* kept, const Execution& execution);
+/// Of any tiles, with steps. Throws Stopped.
+std::vector<TileSummary> reduce_tiles(const LatticeWorld& world, const OverlayEnds& ends, std::size_t grain,
+                                      std::span<const std::size_t> tiles, const Execution& execution);
 
 }  // namespace warren

@@ -25,7 +25,7 @@
 #include "planners/graph/roadmap_arrays.hpp"
 #include "planners/graph/roadmap_search.hpp"
 #include "planners/roadmap/build_roadmap.hpp"
-#include "planners/roadmap/plan_in_rounds.hpp"
+#include "planners/roadmap/prm.hpp"
 
 namespace warren {
 
@@ -91,7 +91,7 @@ class Ask {
  public:
   using State = typename W::State;
   Ask(const AskedRoadmap<W>& roadmap, const State& start, const State& goal, const RoadmapOptions& options,
-      const Execution& execution, AskScratch& scratch, bool keep)
+      const Execution& execution, AskScratch& scratch, PlannedRoadmap<State>* keep)
       : roadmap_(roadmap),
         world_(roadmap.world),
         ends_{start, goal},
@@ -100,7 +100,7 @@ class Ask {
         scratch_(scratch),
         keep_(keep) {}
 
-  Solution<State> run(PlannedRoadmap<State>* keep) {
+  Solution<State> run() {
     if (const auto blocked = blocked_end(world_, ends_[0], ends_[1])) {
       solution_.outcome = *blocked;
       return std::move(solution_);
@@ -110,7 +110,7 @@ class Ask {
       attach_ends();
       search();
       if (solution_.outcome == Outcome::not_connected && tells_separation()) tell_separation();
-      if (keep != nullptr) *keep = {all_states(), free_graph(), tree_};
+      if (keep_ != nullptr) *keep_ = {all_states(), free_graph(), tree_};
     } catch (const Stopped& stopped) {
       mark_stopped(solution_, stopped);
     }
@@ -125,8 +125,7 @@ class Ask {
   /// to the question and what it is given.
   class AskedNeighbours {
    public:
-    AskedNeighbours(const Ask& ask, std::vector<Edge>* used)
-        : ask_(ask), roadmap_(ask.roadmap_), used_(used), query_(ask.world_.make_query()) {}
+    explicit AskedNeighbours(const Ask& ask) : ask_(ask), roadmap_(ask.roadmap_), query_(ask.world_.make_query()) {}
 
     void operator()(VertexId v, const AnyVisit& visit) {
       if (v < roadmap_.states.size()) {
@@ -155,7 +154,6 @@ class Ask {
       if (!visit.wants(w, length)) return;
       if (known == EdgeState::unchecked && !asked(v, w, end)) return;
       ++free_edges_;
-      if (used_ != nullptr) used_->push_back(one_way ? Edge{v, w} : Edge{std::min(v, w), std::max(v, w)});
       visit(w, ask_.world_.motion_cost ? ask_.cost(v, w) : length);
     }
     /// An edge of start or goal. Of lazy roadmaps whose edges lead one way it is asked about here, as one_way_prm does.
@@ -170,22 +168,19 @@ class Ask {
       }
       visit(w, ask_.world_.motion_cost ? ask_.cost(v, w) : length);
     }
-    /// Asks the world; remembers at both ends.
+    /// Asks the world, and remembers.
     bool asked(VertexId v, VertexId w, std::size_t end) {
       if (++counters_.edges_checked % checks_per_poll == 0) ask_.execution_.check();
       const VertexId from = one_way ? v : std::min(v, w);
       const VertexId to = one_way ? w : std::max(v, w);
       const bool free = ask_.world_.is_free_motion(ask_.state(from), ask_.state(to), query_);
       counters_.edges_free += free ? 1 : 0;
-      const EdgeState answer = free ? EdgeState::free : EdgeState::blocked;
-      roadmap_.known.learn(end, answer);
-      if (!one_way) roadmap_.known.learn(end_of_edge(roadmap_.candidates, w, v), answer);
+      learn_edge<W>(roadmap_.known, roadmap_.candidates, v, end, free);
       return free;
     }
 
     const Ask& ask_;
     const AskedRoadmap<W>& roadmap_;
-    std::vector<Edge>* used_;
     typename W::Query query_;
     Counters counters_;
     std::uint64_t free_edges_ = 0;
@@ -264,7 +259,7 @@ class Ask {
       found = search_both_ends();
     } else {
       found = search_plainly(start_vertex(), goal_vertex(), scratch_.states[0]);
-      if (keep_) tree_ = search_tree(scratch_.states[0]);
+      if (keep_ != nullptr) tree_ = search_tree(scratch_.states[0]);
     }
     solution_.counters.expanded += found.expanded;
     if (found.path.empty()) return;
@@ -272,7 +267,7 @@ class Ask {
     for (const VertexId v : found.path) solution_.path.push_back(state(v));
   }
   SearchResult search_plainly(VertexId from, VertexId to, SearchState& state) {
-    AskedNeighbours seen(*this, keep_ ? &used_ : nullptr);
+    AskedNeighbours seen(*this);
     const auto estimate = this->estimate();
     const SearchResult found = search_implicit(AnyNeighbours(seen), from, to, asked(VertexDistance(estimate)), state);
     if (found.status == SearchStatus::stopped) execution_.check();
@@ -280,18 +275,13 @@ class Ask {
     return found;
   }
   SearchResult search_both_ends() {
-    std::array<std::vector<Edge>, 2> used;
-    std::array<AskedNeighbours, 2> seen{AskedNeighbours(*this, keep_ ? &used[0] : nullptr),
-                                        AskedNeighbours(*this, keep_ ? &used[1] : nullptr)};
+    std::array<AskedNeighbours, 2> seen{AskedNeighbours(*this), AskedNeighbours(*this)};
     const auto estimate = this->estimate();
     const SearchResult found = search_implicit_from_both_ends(
         {AnyNeighbours(seen[0]), AnyNeighbours(seen[1])}, {start_vertex(), goal_vertex()},
         asked(VertexDistance(estimate)), {&scratch_.states[0], &scratch_.states[1]});
-    for (std::size_t side = 0; side < seen.size(); ++side) {
-      count(seen[side]);
-      used_.insert(used_.end(), used[side].begin(), used[side].end());
-    }
-    if (keep_) tree_ = search_trees(scratch_.states[0], scratch_.states[1]);
+    for (const AskedNeighbours& side : seen) count(side);
+    if (keep_ != nullptr) tree_ = search_trees(scratch_.states[0], scratch_.states[1]);
     return found;
   }
   /// On a copy of what is free, as the planner searches it.
@@ -306,7 +296,7 @@ class Ask {
                               .search = options_.search,
                               .queue = options_.queue,
                               .execution = execution_,
-                              .tree = keep_ ? &tree_ : nullptr};
+                              .tree = keep_ != nullptr ? &tree_ : nullptr};
     if (const auto reduced = reduced_for_search(graph, asked)) return search_roadmap(*reduced, asked);
     return search_roadmap(graph, asked);
   }
@@ -345,6 +335,7 @@ class Ask {
     if constexpr (one_way) {
       const auto states = check_edges(world_, roadmap_.states, roadmap_.candidates, execution_, solution_.counters);
       for (std::size_t end = 0; end < roadmap_.candidates.targets().size(); ++end) {
+        execution_.poll(end);
         roadmap_.known.learn(end, edge_state(states, end));
       }
     } else {
@@ -392,9 +383,8 @@ class Ask {
   const RoadmapOptions& options_;
   const Execution& execution_;
   AskScratch& scratch_;
-  bool keep_;
+  PlannedRoadmap<State>* keep_;
   RawVector<Edge> end_edges_;
-  std::vector<Edge> used_;
   std::vector<Edge> tree_;
   Solution<State> solution_;
 };
@@ -409,7 +399,7 @@ Solution<typename W::State> ask_roadmap(const AskedRoadmap<W>& roadmap, const ty
                                         const typename W::State& goal, const RoadmapOptions& options,
                                         const Execution& execution, AskScratch& scratch,
                                         PlannedRoadmap<typename W::State>* keep = nullptr) {
-  return detail::Ask<W>(roadmap, start, goal, options, execution, scratch, keep != nullptr).run(keep);
+  return detail::Ask<W>(roadmap, start, goal, options, execution, scratch, keep).run();
 }
 
 }  // namespace warren

@@ -21,10 +21,11 @@
 #include "parallel/chunks.hpp"
 #include "planners/graph/any_world.hpp"
 #include "planners/graph/assemble_graph.hpp"
+#include "planners/graph/roadmap_arrays.hpp"
 #include "planners/graph/roadmap_options.hpp"
 #include "planners/graph/roadmap_search.hpp"
 #include "planners/roadmap/connection.hpp"
-#include "planners/roadmap/milestones.hpp"
+#include "planners/roadmap/sampler.hpp"
 
 namespace warren {
 
@@ -40,94 +41,47 @@ inline std::size_t end_of_edge(const Graph& graph, VertexId v, VertexId w) {
   return graph.first_end(v) + static_cast<std::size_t>(std::lower_bound(row.begin(), row.end(), w) - row.begin());
 }
 
-/// Asks about the edges of one row that are not known; `answers` are those of the row's ends.
+/// What the world says of the edge from v with this end; where it leads both ways its other end says the same.
+template <World W>
+void learn_edge(const SharedEdgeStates& states, const Graph& graph, VertexId v, std::size_t end, bool free) {
+  const EdgeState answer = free ? EdgeState::free : EdgeState::blocked;
+  states.learn(end, answer);
+  if (!W::one_way) states.learn(end_of_edge(graph, graph.targets()[end], v), answer);
+}
+
+/// Asks about the edges of one row that are not known.
 template <World W>
 void check_row(const W& world, std::span<const typename W::State> states, const Graph& graph, VertexId v,
-               const KnownMotions<typename W::State>& known, std::span<const std::uint64_t> before,
-               std::span<std::uint8_t> answers, typename W::Query& query, std::uint64_t& checked) {
+               const KnownMotions<typename W::State>& known, const SharedEdgeStates& answers, typename W::Query& query,
+               std::uint64_t& checked) {
   std::array<Motion<typename W::State>, bunch_size> motions;
   std::array<std::size_t, bunch_size> ends;
   std::size_t count = 0;
   const auto flush = [&] {
     const std::uint32_t free = world.free_motions(std::span(motions).first(count), query);
-    for (std::size_t i = 0; i < count; ++i) {
-      answers[ends[i]] = static_cast<std::uint8_t>((free >> i & 1U) != 0 ? EdgeState::free : EdgeState::blocked);
-    }
+    for (std::size_t i = 0; i < count; ++i) learn_edge<W>(answers, graph, v, ends[i], (free >> i & 1U) != 0);
     checked += count;
     count = 0;
   };
-  const auto row = graph.neighbours(v);
-  for (std::size_t i = 0; i < row.size(); ++i) {
-    if (!W::one_way && row[i] < v) continue;
-    if (!before.empty()) {
-      answers[i] = static_cast<std::uint8_t>(edge_state(before, graph.first_end(v) + i));
-      if (answers[i] != static_cast<std::uint8_t>(EdgeState::unchecked)) continue;
-    }
-    if (const auto answer = known ? known(states[v], states[row[i]]) : std::nullopt) {
-      answers[i] = static_cast<std::uint8_t>(*answer ? EdgeState::free : EdgeState::blocked);
+  std::size_t end = graph.first_end(v);
+  for (const VertexId w : graph.neighbours(v)) {
+    const std::size_t its_end = end++;
+    if ((!W::one_way && w < v) || answers[its_end] != EdgeState::unchecked) continue;
+    if (const auto answer = known ? known(states[v], states[w]) : std::nullopt) {
+      learn_edge<W>(answers, graph, v, its_end, *answer);
       continue;
     }
-    motions[count] = {states[v], states[row[i]]};
-    ends[count++] = i;
+    motions[count] = {states[v], states[w]};
+    ends[count++] = its_end;
     if (count == bunch_size) flush();
   }
   if (count > 0) flush();
 }
 
-/// The edges of a graph for which is_free(end), and more, which ascend and may join further vertices, each in the row
-/// of its begin.
-template <class IsFree>
-Graph part_with_edges(const Graph& all, const IsFree& is_free, std::size_t vertex_count, std::span<const Edge> more,
-                      const Execution& execution) {
-  constexpr std::size_t polled = std::size_t{1} << 14;
-  RawVector<EdgeEnd> offsets(vertex_count + 1);
-  RawVector<VertexId> targets;
-  targets.reserve(all.targets().size() + more.size());
-  auto next = more.begin();
-  for (VertexId v = 0; v < vertex_count; ++v) {
-    if (v % polled == 0) execution.check();
-    offsets[v] = static_cast<EdgeEnd>(targets.size());
-    if (v < all.vertex_count()) {
-      std::size_t end = all.first_end(v);
-      for (const VertexId w : all.neighbours(v)) {
-        if (is_free(end++)) targets.push_back(w);
-      }
-    }
-    for (; next != more.end() && next->from == v; ++next) targets.push_back(next->to);
-  }
-  offsets[vertex_count] = static_cast<EdgeEnd>(targets.size());
-  return {std::move(offsets), std::move(targets)};
-}
-
-/// An edge's end at the larger vertex gets what stands at the other.
-inline void copy_to_other_ends(const Graph& graph, std::span<std::uint8_t> answers, const Execution& execution) {
-  constexpr std::size_t grain = 2048;
-  for_each_index<VertexId>(graph.vertex_count(), grain, execution, [&](VertexId v) {
-    std::size_t end = graph.first_end(v);
-    for (const VertexId w : graph.neighbours(v)) {
-      if (w >= v) break;
-      answers[end++] = answers[end_of_edge(graph, w, v)];
-    }
-  });
-}
-
-inline RawVector<std::uint64_t> packed(std::span<const std::uint8_t> states, const Execution& execution) {
-  constexpr std::size_t grain = std::size_t{1} << 14;
-  RawVector<std::uint64_t> words(edge_state_words(states.size()));
-  for_each_index(words.size(), grain, execution, [&](std::size_t i) {
-    words[i] = 0;
-    const std::size_t first = i * edge_states_in_word;
-    const std::size_t last = std::min(first + edge_states_in_word, states.size());
-    for (std::size_t end = first; end < last; ++end) words[i] |= std::uint64_t{states[end]} << (2 * (end - first));
-  });
-  return words;
-}
-
 }  // namespace detail
 
 /// Asks the world about every edge of a roadmap, on all cores. An edge that leads both ways is asked from its smaller
-/// vertex, as prm does; its other end copies what was answered. One byte an edge end while it runs, since threads share
-/// words of two bits. The states of all edges, as graph.hpp packs them: the same for any number of threads. `known`,
+/// vertex, as prm does. The states of all edges, as graph.hpp packs them: the same for any number of threads. `known`,
 /// and what `before` says where it is given, is not asked. Throws Stopped.
 template <World W>
 RawVector<std::uint64_t> check_edges(const W& world, std::span<const typename W::State> states, const Graph& graph,
@@ -137,24 +91,23 @@ RawVector<std::uint64_t> check_edges(const W& world, std::span<const typename W:
   constexpr std::size_t grain = detail::connection_grain<W>;
   constexpr std::size_t rows_per_poll = grain / 64;
   const std::size_t n = graph.vertex_count();
-  const std::size_t ends = graph.targets().size();
-  execution.reserve(ends + ends / 4);
-  RawVector<std::uint8_t> answers(ends);
+  const std::size_t words = edge_state_words(graph.targets().size());
+  execution.reserve(3 * words * sizeof(std::uint64_t));
+  const RawVector<std::uint64_t> nothing(words, 0);
+  const SharedEdgeStates answers(before.empty() ? std::span<const std::uint64_t>(nothing) : before);
   std::vector<Counters> done(chunk_count(n, grain));
   for_chunks(n, grain, execution, [&](Range r) {
     auto query = world.make_query();
     Counters& counts = done[r.first / grain];
     for (std::size_t v = r.first; v < r.last; ++v) {
       const auto vertex = static_cast<VertexId>(v);
-      const std::span<std::uint8_t> row(answers.data() + graph.first_end(vertex), graph.degree(vertex));
       if (v % rows_per_poll == 0) execution.check();
-      detail::check_row(world, states, graph, vertex, known, before, row, query, counts.edges_checked);
+      detail::check_row(world, states, graph, vertex, known, answers, query, counts.edges_checked);
     }
     counts.refused = refused_motions(query);
   });
   for (const Counters& part : done) counters += part;
-  if (!W::one_way) detail::copy_to_other_ends(graph, answers, execution);
-  return detail::packed(answers, execution);
+  return {answers.words().begin(), answers.words().end()};
 }
 
 template <class State>
@@ -167,15 +120,6 @@ struct BuiltRoadmap {
   Counters counters;
   StageTimes seconds;
 };
-
-/// The graph of edges that lead one way: each stands in the row of its begin alone, in any order.
-Graph one_way_graph(std::size_t vertex_count, const EdgeParts& edges, const Execution& execution);
-/// The edges of a graph that are free.
-Graph free_part(const Graph& candidates, std::span<const std::uint64_t> edge_states, const Execution& execution);
-
-/// Of a graph whose edges lead from a row to its targets: what `from` reaches has its label, and what reaches `to` has
-/// that of `to`.
-Components reached_and_reaching(const Graph& graph, VertexId from, VertexId to, const Execution& execution);
 
 namespace detail {
 

@@ -140,12 +140,17 @@ ConnectionRule connection_rule_for(const W& world, const RoadmapOptions& options
   if (options.sampler == SamplerKind::cell_centres && by_rule && world.milestone_cells() != nullptr)
     return {world.milestone_reach(), 0, options.attach};
   const Box box = world.box();
-  ConnectionRule rule =
-      options.star == StarRule::none
-          ? connection_rule(options, samples, world.sampled_area(), std::min(box.width(), box.height()))
-          : star_rule(options.star, samples, world.sampled_dimension(), world.sampled_volume());
+  const double area = W::in_plane ? world.sampled_volume() : 0.0;
+  ConnectionRule rule = options.star == StarRule::none
+                            ? connection_rule(options, samples, area, std::min(box.width(), box.height()))
+                            : star_rule(options.star, samples, world.sampled_dimension(), world.sampled_volume());
   rule.attach = options.attach;
   return rule;
+}
+
+/// Start and goal are joined directly when they are no farther apart than this.
+inline double direct_reach(const ConnectionRule& rule) {
+  return rule.neighbours > 0 ? std::numeric_limits<double>::infinity() : rule.radius;
 }
 
 /// Candidate or free edges, one part a chunk of milestones.
@@ -161,39 +166,22 @@ inline constexpr std::size_t connection_grain = std::same_as<typename W::State, 
 template <World W>
 inline constexpr std::uint32_t bunches_per_clock = std::same_as<typename W::State, Vec2> ? 32 : 1;
 
-/// The k nearest of each milestone, flat: row i holds counts[i] of k places.
-struct NearestLists {
-  std::uint32_t k = 0;
-  RawVector<VertexId> ids;
-  RawVector<std::uint32_t> counts;
-  std::span<const VertexId> of(std::size_t i) const { return {ids.data() + i * k, counts[i]}; }
-};
-
+/// The k nearest of each of n milestones, k < n, one after the other.
 template <World W>
-NearestLists nearest_lists(std::span<const typename W::State> milestones, const StateIndex<W>& index, std::uint32_t k,
-                           const Execution& execution) {
-  execution.reserve(milestones.size() * (std::size_t{k} + 1) * sizeof(VertexId));
-  NearestLists lists{k, RawVector<VertexId>(milestones.size() * k), RawVector<std::uint32_t>(milestones.size())};
-  for_chunks(milestones.size(), connection_grain<W>, execution, [&](Range r) {
+RawVector<VertexId> nearest_of_each(std::size_t n, const StateIndex<W>& index, std::size_t k,
+                                    const Execution& execution) {
+  execution.reserve(n * k * sizeof(VertexId));
+  RawVector<VertexId> ids(n * k);
+  for_chunks(n, connection_grain<W>, execution, [&](Range r) {
     std::vector<Neighbour> near;
     for (std::size_t i = r.first; i < r.last; ++i) {
       index.nearest(index.point(static_cast<VertexId>(i)), k, static_cast<VertexId>(i), near);
-      lists.counts[i] = static_cast<std::uint32_t>(near.size());
-      std::transform(near.begin(), near.end(), lists.ids.begin() + static_cast<std::ptrdiff_t>(i * k),
-                     [](const Neighbour& n) { return n.id; });
+      std::transform(near.begin(), near.end(), ids.begin() + static_cast<std::ptrdiff_t>(i * k),
+                     [](const Neighbour& one) { return one.id; });
     }
   });
-  return lists;
+  return ids;
 }
-
-}  // namespace detail
-
-/// Start and goal are joined directly when they are no farther apart than this.
-inline double direct_reach(const ConnectionRule& rule) {
-  return rule.neighbours > 0 ? std::numeric_limits<double>::infinity() : rule.radius;
-}
-
-namespace detail {
 
 /// Candidate edges that are put to the world together, and their motions.
 template <class State>
@@ -218,8 +206,10 @@ class Bunch {
 template <World W, class Keep>
 EdgeParts edges_that(const W& world, std::span<const typename W::State> milestones, const StateIndex<W>& index,
                      const ConnectionRule& rule, const Execution& execution, const Keep& keep) {
-  NearestLists lists;
-  if (rule.neighbours > 0) lists = nearest_lists<W>(milestones, index, rule.neighbours, execution);
+  const std::size_t k = milestones.empty() ? 0 : std::min<std::size_t>(rule.neighbours, milestones.size() - 1);
+  const RawVector<VertexId> nearest =
+      k > 0 ? nearest_of_each<W>(milestones.size(), index, k, execution) : RawVector<VertexId>();
+  const auto nearest_of = [&](std::size_t i) { return std::span(nearest).subspan(i * k, k); };
   const SearchRadius radius(rule.radius);
   constexpr std::uint64_t bunches_per_poll = 16;  // a milestone may have all others within its radius
   return parts_of_chunks(milestones.size(), connection_grain<W>, execution, [&](Range r) {
@@ -242,11 +232,11 @@ EdgeParts edges_that(const W& world, std::span<const typename W::State> mileston
       bunch.add({from, to}, milestones[from], milestones[to]);
       if (bunch.full()) flush();
     };
-    if (lists.k == 0) index.for_each_later_pair(r, radius, add);
-    for (std::size_t next = r.first; lists.k > 0 && next < r.last; ++next) {
+    if (rule.neighbours == 0) index.for_each_later_pair(r, radius, add);
+    for (std::size_t next = r.first; k > 0 && next < r.last; ++next) {
       const auto i = static_cast<VertexId>(next);
-      for (const VertexId j : lists.of(i)) {  // each pair once
-        const auto theirs = lists.of(j);
+      for (const VertexId j : nearest_of(i)) {  // each pair once
+        const auto theirs = nearest_of(j);
         if (j > i || std::find(theirs.begin(), theirs.end(), i) == theirs.end()) add(i, j);
       }
     }

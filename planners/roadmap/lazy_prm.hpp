@@ -6,7 +6,7 @@
 // (core/search/search.hpp), from both ends SearchSide::advance() (bidirectional_search.hpp there). By radius the graph
 // is implicit (LazyGraph): the search asks for neighbours. By k, which is usual for poses, arms and the corridor
 // sampler, the candidates become rows before it, unchecked. Blocked ends, and larger rounds where there is no path:
-// plan_in_rounds.hpp; motions that have a direction: one_way_prm.hpp. The path is the shortest of the same roadmap as
+// prm.hpp; motions that have a direction: one_way_prm.hpp. The path is the shortest of the same roadmap as
 // prm's. Tried and lost: a motion checked only when it lies on the best path so far, as Bohlin and Kavraki have it, for
 // most candidate edges of mazes lead through walls, and each of them cost a repair.
 // From 50,000 milestones on it searches from both ends (NBA*), if the estimate never exceeds the way: each end with a
@@ -36,7 +36,7 @@
 #include "planners/graph/assemble_graph.hpp"
 #include "planners/graph/roadmap_search.hpp"
 #include "planners/roadmap/connection.hpp"
-#include "planners/roadmap/plan_in_rounds.hpp"
+#include "planners/roadmap/prm.hpp"
 #include "spatial/points/neighbours.hpp"
 
 namespace warren {

@@ -14,7 +14,7 @@
 #include "planners/graph/any_world.hpp"
 #include "planners/graph/roadmap_search.hpp"
 #include "planners/roadmap/build_roadmap.hpp"
-#include "planners/roadmap/plan_in_rounds.hpp"
+#include "planners/roadmap/prm.hpp"
 
 namespace warren {
 
@@ -75,15 +75,6 @@ class OneWayPlan final : public Rounds<W> {
     }
     return edges;
   }
-  bool is_free(VertexId from, VertexId to, std::size_t end, typename W::Query& query, Counters& counters) {
-    EdgeState known = edge_state(known_, end);
-    if (known == EdgeState::unchecked) {
-      if (++counters.edges_checked % checks_per_poll == 0) execution_.check();
-      known = world_.is_free_motion(states_[from], states_[to], query) ? EdgeState::free : EdgeState::blocked;
-      set_edge_state(known_, end, known);
-    }
-    return known == EdgeState::free;
-  }
   void check_all() {
     const StageTimer timer(execution_, "checks", solution_.seconds.connect, states_.size());
     known_ = check_edges(world_, states_, candidates_, execution_, solution_.counters, {}, known_);
@@ -112,11 +103,15 @@ class OneWayPlan final : public Rounds<W> {
         if (edge_state(known_, its_end) == EdgeState::blocked || !visit.wants(to, 0.0)) continue;
         const double length = world_.distance(states_[v], states_[to]);
         if (!visit.wants(to, length)) continue;
-        const bool is_checked = edge_state(known_, its_end) == EdgeState::unchecked;
-        if (is_checked) clock.begin();
-        const bool free = is_free(v, to, its_end, query, counters);
-        if (is_checked) clock.lap(StagePart::checks);
-        if (free) visit(to, world_.motion_cost ? world_.cost(states_[v], states_[to]) : length);
+        if (edge_state(known_, its_end) == EdgeState::unchecked) {
+          if (++counters.edges_checked % checks_per_poll == 0) execution_.check();
+          clock.begin();
+          const bool free = world_.is_free_motion(states_[v], states_[to], query);
+          clock.lap(StagePart::checks);
+          set_edge_state(known_, its_end, free ? EdgeState::free : EdgeState::blocked);
+          if (!free) continue;
+        }
+        visit(to, world_.motion_cost ? world_.cost(states_[v], states_[to]) : length);
       }
     };
     const auto estimate = [&](VertexId v, VertexId to) { return world_.distance(states_[v], states_[to]); };

@@ -464,7 +464,7 @@ class Puller {
       vertices_.push_back({place, 0.0, legs.step, true});
     }
     for (std::size_t i = 1; i < vertices_.size(); ++i) {
-      vertices_[i].leg = cost(vertices_[i - 1].place, vertices_[i].place);
+      vertices_[i].leg = legs_.cost(vertices_[i - 1].place, vertices_[i].place);
     }
   }
 
@@ -504,7 +504,6 @@ class Puller {
     const Vec2 rest = to - vertices_.back().place;
     return std::abs(cross(way, rest)) <= rounding * dot(way, rest) && legs_.is_free(from, to);
   }
-  double cost(Vec2 a, Vec2 b) const { return legs_.cost(a, b); }
   double whole() const {
     double sum = 0.0;
     for (const Vertex& v : vertices_) sum += v.leg;
@@ -523,7 +522,7 @@ class Puller {
         const Vertex& middle = kept[kept.size() - 2];
         const Vec2 from = kept[kept.size() - 3].place;
         if (!last.is_new && !middle.is_new) break;
-        const double straight = cost(from, last.place);
+        const double straight = legs_.cost(from, last.place);
         if (!(straight <= middle.leg + last.leg + noise_ * 1e-3) || !legs_.is_free(from, last.place)) break;
         last.leg = straight;
         last.is_new = true;
@@ -559,7 +558,7 @@ class Puller {
     const double now = v.leg + vertices_[i + 1].leg;
     const auto at = [&](double way) {
       const Vec2 place = v.place + way * direction;
-      return cost(vertices_[i - 1].place, place) + cost(place, vertices_[i + 1].place);
+      return legs_.cost(vertices_[i - 1].place, place) + legs_.cost(place, vertices_[i + 1].place);
     };
     const double ahead = at(v.step);
     const double back = at(-v.step);
@@ -580,8 +579,8 @@ class Puller {
   bool take(std::size_t i, Vec2 place) {
     Vertex& v = vertices_[i];
     Vertex& next = vertices_[i + 1];
-    const double in = cost(vertices_[i - 1].place, place);
-    const double out = cost(place, next.place);
+    const double in = legs_.cost(vertices_[i - 1].place, place);
+    const double out = legs_.cost(place, next.place);
     if (!(in + out < v.leg + next.leg - noise_)) return false;
     if (!legs_.is_free(vertices_[i - 1].place, place) || !legs_.is_free(place, next.place)) return false;
     v.place = place;
@@ -606,8 +605,8 @@ class Puller {
         const Vec2 middle = from + 0.5 * leg;
         for (const double way : {legs_.step, -legs_.step, 0.25 * legs_.step, -0.25 * legs_.step}) {
           const Vec2 place = middle + way * across;
-          const double in = cost(from, place);
-          const double out = cost(place, next.place);
+          const double in = legs_.cost(from, place);
+          const double out = legs_.cost(place, next.place);
           if (!(in + out < next.leg - 1e3 * noise_)) continue;
           if (!legs_.is_free(from, place) || !legs_.is_free(place, next.place)) continue;
           more.push_back({place, in, legs_.step, true});

@@ -84,7 +84,7 @@ class MotionTree {
     const bool forward = direction_ == GrowthDirection::forward;
     return forward ? world_->distance(states_[from], to) : world_->distance(to, states_[from]);
   }
-  /// Where the motion from a vertex towards a state has gone so far, at most.
+  /// Where the motion from a vertex towards a state has gone so far, at most, in the world's metric.
   State towards(VertexId from, const State& to, double step) const {
     const double whole = length(from, to);
     if (whole <= step) return to;
@@ -113,11 +113,6 @@ class MotionTree {
     if (step != Step::free) return std::nullopt;
     ++counters.edges_free;
     return add(to, from);
-  }
-  /// The same towards `to`, of length `step` at most (in the world's metric).
-  std::optional<VertexId> extend(VertexId from, const State& to, double step, typename W::Query& query,
-                                 Counters& counters) {
-    return join(from, towards(from, to, step), query, counters);
   }
   /// Grows from `from` towards `to` step by step: the last vertex, which stands at `to` where nothing is in the way,
   /// goes_on() says so before each motion, and a step gets anywhere in the states' numbers.
@@ -263,12 +258,9 @@ Solution<typename W::State> race_trees(const W& world, const typename W::State& 
   options.validate();
   Solution<typename W::State> solution;
   const auto free_goals = free_states(world, goals);
-  if (free_states(world, std::span(&start, 1)).empty()) {
-    solution.outcome = Outcome::start_blocked;
-    return solution;
-  }
-  if (free_goals.empty()) {
-    solution.outcome = Outcome::goal_blocked;
+  const bool starts = !free_states(world, std::span(&start, 1)).empty();
+  if (!starts || free_goals.empty()) {
+    solution.outcome = starts ? Outcome::goal_blocked : Outcome::start_blocked;
     return solution;
   }
   std::vector<Search> searches;

@@ -354,14 +354,12 @@ class RrtSearch {
     const State target = next_target();
     const VertexId nearest = tree_.nearest(target, counters_);
     if (tree_.state(nearest) == target) return;
-    const auto grown = tree_.extend(nearest, target, step_, query_, counters_);
+    const auto grown = tree_.join(nearest, tree_.towards(nearest, target, step_), query_, counters_);
     if (!grown) return;
-    for (const State& goal : goals_) {
-      if (tree_.state(*grown) == goal) last_ = *grown;
-    }
+    if (std::find(goals_.begin(), goals_.end(), tree_.state(*grown)) != goals_.end()) last_ = *grown;
     for (const State& goal : goals_) {
       if (arrived() || world_->distance(tree_.state(*grown), goal) > step_) continue;
-      if (const auto at_goal = tree_.extend(*grown, goal, step_, query_, counters_)) last_ = *at_goal;
+      if (const auto at_goal = tree_.join(*grown, goal, query_, counters_)) last_ = *at_goal;
     }
   }
 

@@ -226,8 +226,9 @@ class CellSweep {
     put_starting();
     open_cells(upper_polygon);
     const Node last = put_.empty() ? below_ : put_.back();
-    const bool on_floor = below_ == order_.begin() && touches_floor(at_);
-    const bool on_ceiling = above_ == order_.end() && touches_ceiling(at_);
+    const Box& box = result_.box;
+    const bool on_floor = below_ == order_.begin() && (at_.y == box.min.y || at_.x == box.max.x);
+    const bool on_ceiling = above_ == order_.end() && (at_.y == box.max.y || at_.x == box.min.x);
     add_door(lower_cell, below_->entry.cell, false, on_floor);
     add_door(upper_cell, last->entry.cell, true, on_ceiling);
     check_neighbours(below_, put_.empty() ? above_ : put_.front());
@@ -349,8 +350,6 @@ class CellSweep {
     if (!is_wall(segment)) return polygon_of_[segment];
     return obstacles_.polygons.size() + segment - polygon_of_.size();
   }
-  bool touches_floor(Vec2 p) const { return p.y == result_.box.min.y || p.x == result_.box.max.x; }
-  bool touches_ceiling(Vec2 p) const { return p.y == result_.box.max.y || p.x == result_.box.min.x; }
   std::uint32_t segment_of(Node n) const {
     return n == order_.end() ? CellDecomposition::ceiling_segment : n->entry.segment;
   }
@@ -373,80 +372,6 @@ class CellSweep {
   std::vector<Node> put_;                         // where starting_ went
   Node below_, above_;                            // the neighbours of all that; above_ may be the end
 };
-
-}  // namespace
-
-ObstacleClash::ObstacleClash(std::size_t obstacle, std::size_t other, std::size_t polygon_count)
-    : InputError(name_of(obstacle, polygon_count), complaint(obstacle, other, polygon_count)),
-      obstacle_(obstacle),
-      other_(other) {}
-
-int CellDecomposition::side(std::uint32_t segment, Vec2 p) const noexcept {
-  if (segment == floor_segment) return p.y > box.min.y ? 1 : p.y < box.min.y ? -1 : 0;
-  if (segment == ceiling_segment) return p.y > box.max.y ? 1 : p.y < box.max.y ? -1 : 0;
-  return orient2d(segments[segment].a, segments[segment].b, p);
-}
-
-double CellDecomposition::height(std::uint32_t segment, double x) const noexcept {
-  if (segment == floor_segment) return box.min.y;
-  if (segment == ceiling_segment) return box.max.y;
-  const Segment& s = segments[segment];
-  const double width = s.b.x - s.a.x;
-  if (!(width > 0.0)) return x > s.a.x ? s.b.y : s.a.y;
-  const double y = s.a.y + (x - s.a.x) / width * (s.b.y - s.a.y);
-  return std::clamp(y, std::min(s.a.y, s.b.y), std::max(s.a.y, s.b.y));
-}
-
-Segment CellDecomposition::door_line(std::uint32_t door) const {
-  const Vec2 corner = corners[doors[door].corner];
-  const Vec2 far{corner.x, height(far_segment(door), corner.x)};
-  return doors[door].above ? Segment{corner, far} : Segment{far, corner};
-}
-
-CellDecomposition decompose(const PlaneObstacles& given, std::span<const Vec2> points, const Execution& execution,
-                            Overlaps overlaps) {
-  PlaneObstacles united;
-  if (overlaps == Overlaps::united) {
-    assert(given.walls.empty());
-    united.polygons = node_polygons(framed(given), execution).polygons;
-  }
-  const PlaneObstacles& obstacles = overlaps == Overlaps::united ? united : given;
-  CellDecomposition cells = CellSweep(obstacles, points, overlaps, execution).run();
-  for (const Vec2 p : points) {
-    execution.check();
-    cells.places.push_back(locate(cells, obstacles, p));
-  }
-  return cells;
-}
-
-CellPlace locate(const CellDecomposition& cells, const PlaneObstacles& obstacles, Vec2 p) {
-  CellPlace place;
-  if (!cells.box.contains(p)) {
-    place.blocked = true;
-    return place;
-  }
-  place.blocked = strictly_inside(obstacles.polygons, p);
-  for (std::uint32_t i = 0; i < cells.cells.size(); ++i) {
-    if (holds(cells, cells.cells[i], p) && !is_flat(cells, obstacles, cells.cells[i])) place.cells.push_back(i);
-  }
-  return place;
-}
-
-bool is_flat(const CellDecomposition& cells, const PlaneObstacles& obstacles, const VerticalCell& cell) {
-  const bool on_floor = cell.lower == CellDecomposition::floor_segment;
-  const bool on_ceiling = cell.upper == CellDecomposition::ceiling_segment;
-  if (on_floor == on_ceiling) return false;
-  const std::uint32_t segment = on_floor ? cell.upper : cell.lower;
-  const bool is_wall = segment >= obstacles.polygons.corners.size();
-  const Segment& s = cells.segments[segment];
-  const Box& box = cells.box;
-  if (!obstacles.bounds && (!is_wall || side_under(s, box) == BoxSide::none)) return false;
-  const double y = on_floor ? box.min.y : box.max.y;
-  const double x = on_floor ? box.max.x : box.min.x;
-  return (s.a.y == y && s.b.y == y) || (s.a.x == x && s.b.x == x);
-}
-
-namespace {
 
 /// How far rounding to the nearest point of a grid moves a point at most, in units of the grid.
 constexpr double rounding_units = 0.7072;
@@ -572,12 +497,6 @@ void tidy(std::vector<IntegerPiece>& pieces, const Execution& execution) {
 
 constexpr double largest_integer = 0x1.0p45;
 
-double largest_of(std::span<const Vec2> corners) {
-  double largest = 0.0;
-  for (const Vec2 p : corners) largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
-  return largest;
-}
-
 /// Appends the ring without corners that equal the one before; a ring that has no room is left empty.
 void add_ring(std::vector<Vec2> ring, PolygonSet& to) {
   ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
@@ -633,6 +552,74 @@ PolygonSet with_cuts(const PolygonSet& polygons, const std::vector<IntegerPiece>
 
 }  // namespace
 
+ObstacleClash::ObstacleClash(std::size_t obstacle, std::size_t other, std::size_t polygon_count)
+    : InputError(name_of(obstacle, polygon_count), complaint(obstacle, other, polygon_count)),
+      obstacle_(obstacle),
+      other_(other) {}
+
+int CellDecomposition::side(std::uint32_t segment, Vec2 p) const noexcept {
+  if (segment == floor_segment) return p.y > box.min.y ? 1 : p.y < box.min.y ? -1 : 0;
+  if (segment == ceiling_segment) return p.y > box.max.y ? 1 : p.y < box.max.y ? -1 : 0;
+  return orient2d(segments[segment].a, segments[segment].b, p);
+}
+
+double CellDecomposition::height(std::uint32_t segment, double x) const noexcept {
+  if (segment == floor_segment) return box.min.y;
+  if (segment == ceiling_segment) return box.max.y;
+  const Segment& s = segments[segment];
+  const double width = s.b.x - s.a.x;
+  if (!(width > 0.0)) return x > s.a.x ? s.b.y : s.a.y;
+  const double y = s.a.y + (x - s.a.x) / width * (s.b.y - s.a.y);
+  return std::clamp(y, std::min(s.a.y, s.b.y), std::max(s.a.y, s.b.y));
+}
+
+Segment CellDecomposition::door_line(std::uint32_t door) const {
+  const Vec2 corner = corners[doors[door].corner];
+  const Vec2 far{corner.x, height(far_segment(door), corner.x)};
+  return doors[door].above ? Segment{corner, far} : Segment{far, corner};
+}
+
+CellDecomposition decompose(const PlaneObstacles& given, std::span<const Vec2> points, const Execution& execution,
+                            Overlaps overlaps) {
+  PlaneObstacles united;
+  if (overlaps == Overlaps::united) {
+    assert(given.walls.empty());
+    united.polygons = node_polygons(framed(given), execution).polygons;
+  }
+  const PlaneObstacles& obstacles = overlaps == Overlaps::united ? united : given;
+  CellDecomposition cells = CellSweep(obstacles, points, overlaps, execution).run();
+  for (const Vec2 p : points) cells.places.push_back(locate(cells, obstacles, p, execution));
+  return cells;
+}
+
+CellPlace locate(const CellDecomposition& cells, const PlaneObstacles& obstacles, Vec2 p, const Execution& execution) {
+  if (!cells.box.contains(p)) return {.blocked = true, .cells = {}};
+  CellPlace place;
+  for (std::size_t i = 0; i < obstacles.polygons.size() && !place.blocked; ++i) {
+    execution.poll(i);
+    place.blocked = strictly_inside(obstacles.polygons[i], p);
+  }
+  for (std::uint32_t i = 0; i < cells.cells.size(); ++i) {
+    execution.poll(i);
+    if (holds(cells, cells.cells[i], p) && !is_flat(cells, obstacles, cells.cells[i])) place.cells.push_back(i);
+  }
+  return place;
+}
+
+bool is_flat(const CellDecomposition& cells, const PlaneObstacles& obstacles, const VerticalCell& cell) {
+  const bool on_floor = cell.lower == CellDecomposition::floor_segment;
+  const bool on_ceiling = cell.upper == CellDecomposition::ceiling_segment;
+  if (on_floor == on_ceiling) return false;
+  const std::uint32_t segment = on_floor ? cell.upper : cell.lower;
+  const bool is_wall = segment >= obstacles.polygons.corners.size();
+  const Segment& s = cells.segments[segment];
+  const Box& box = cells.box;
+  if (!obstacles.bounds && (!is_wall || side_under(s, box) == BoxSide::none)) return false;
+  const double y = on_floor ? box.min.y : box.max.y;
+  const double x = on_floor ? box.max.x : box.min.x;
+  return (s.a.y == y && s.b.y == y) || (s.a.x == x && s.b.x == x);
+}
+
 SnappedSegments snap_segments(std::span<const Segment> segments, const Execution& execution) {
   if (segments.size() >= std::size_t{1} << 31) throw InputError("medial axis", "expected fewer than 2^31 segments");
   execution.reserve(segments.size() * 2 * sizeof(IntegerPiece));
@@ -661,7 +648,8 @@ SnappedSegments snap_segments(std::span<const Segment> segments, const Execution
 
 NodedPolygons node_polygons(const PolygonSet& polygons, const Execution& execution) {
   if (polygons.corners.size() >= std::size_t{1} << 31) throw InputError("union", "expected fewer than 2^31 sides");
-  const double unit = unit_for(largest_of(polygons.corners), largest_integer);
+  const Box box = box_around(polygons.corners);
+  const double unit = unit_for(std::max({-box.min.x, box.max.x, -box.min.y, box.max.y}), largest_integer);
   NodedPolygons result{rounded(polygons, unit), rounding_units * unit};
   for (int round = 0;; ++round) {
     const std::vector<IntegerPiece> sides = sides_of(result.polygons);

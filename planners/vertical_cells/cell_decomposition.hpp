@@ -117,8 +117,8 @@ CellDecomposition decompose(const PlaneObstacles& obstacles, std::span<const Vec
                             Overlaps overlaps = Overlaps::refused);
 
 /// Where a point lies among vertical cells. Every decision is exact. O(cells + corners), a comparison or two for most
-/// of them. `cells` are those of decompose() for the same obstacles.
-CellPlace locate(const CellDecomposition& cells, const PlaneObstacles& obstacles, Vec2 p);
+/// of them. `cells` are those of decompose() for the same obstacles. Throws Stopped.
+CellPlace locate(const CellDecomposition& cells, const PlaneObstacles& obstacles, Vec2 p, const Execution& execution);
 
 /// Is the cell one between the box's side and a segment on it where nobody can move? That is so for the bounds, which
 /// are walls. Where the box only confines, paths run along polygons on it, but not between walls and it.

@@ -70,6 +70,11 @@ class Funnel {
   Path<Vec2> path_;
 };
 
+/// Is it one of the cells that contain the place?
+bool holds(const CellPlace& place, std::uint32_t cell) {
+  return std::binary_search(place.cells.begin(), place.cells.end(), cell);
+}
+
 /// Through the middles of the doors, of which each two in a row belong to one cell; start and goal included.
 Path<Vec2> path_through_middles(Vec2 start, Vec2 goal, std::span<const std::uint32_t> doors, const DoorPoints& points) {
   Path<Vec2> path{start};
@@ -176,13 +181,9 @@ class TautSearch {
         goal_(goal),
         informed_(informed),
         execution_(execution),
-        best_(cells.doors.size(), std::numeric_limits<double>::infinity()),
+        best_(asked_for(cells, execution), std::numeric_limits<double>::infinity()),
         bends_(cells.doors.size()),
-        last_rays_(cells.doors.size()),
-        holds_goal_(cells.cells.size(), 0),
-        route_{start, goal, {}, {}} {
-    for (const VertexId cell : ends[1].cells) holds_goal_[cell] = 1;
-  }
+        last_rays_(cells.doors.size()) {}
 
   /// Without cells and doors where none was found. Throws Stopped.
   CellRoute run() {
@@ -198,7 +199,7 @@ class TautSearch {
       if (++expanded_ % nodes_per_poll == 0) execution_.check();
       expand(next.node, next.estimate);
     }
-    return route_;
+    return {start_, goal_, {}, {}};
   }
 
   std::uint64_t expanded() const { return expanded_; }  ///< nodes
@@ -206,6 +207,12 @@ class TautSearch {
  private:
   static constexpr std::array<std::size_t, 2> left_doors{0, 1}, right_doors{2, 3};
 
+  /// The number of doors. Asks for what is held of each.
+  static std::size_t asked_for(const CellDecomposition& cells, const Execution& execution) {
+    constexpr std::size_t bytes_a_door = sizeof(double) + sizeof(std::vector<Bend>) + sizeof(std::vector<LastRay>);
+    execution.reserve(cells.doors.size() * bytes_a_door);
+    return cells.doors.size();
+  }
   Vec2 corner_of(std::uint32_t door) const { return cells_.corners[cells_.doors[door].corner]; }
   bool is_open(std::uint32_t door) const { return door != no_number && !cells_.doors[door].shut; }
   bool corner_is_left(std::uint32_t door, bool rightwards) const { return rightwards != cells_.doors[door].above; }
@@ -218,7 +225,7 @@ class TautSearch {
     if (outdated(node)) return;
     floor_ = estimate;
     const VerticalCell& cell = cells_.cells[node.cell];
-    if (holds_goal_[node.cell] != 0) reach_goal(node, number);
+    if (holds(ends_[1], node.cell)) reach_goal(node, number);
     for (const std::size_t place : node.rightwards ? right_doors : left_doors) {
       if (is_open(cell.doors[place])) pass(node, number, cell.doors[place]);
     }
@@ -349,7 +356,7 @@ class TautSearch {
     if (!estimate || outdated(node)) return;
     if (node.root_door != no_number) best_[node.root_door] = std::min(best_[node.root_door], node.length);
     queue_.push({std::max(*estimate, floor_), static_cast<std::uint32_t>(nodes_.size()), false});
-    nodes_.push_back(node);
+    push_asked(nodes_, node, execution_);
   }
 
   /// Where the ray meets the vertical line at x; none where it runs straight up or down, or against the node's way.
@@ -389,14 +396,15 @@ class TautSearch {
     return node.length + distance(node.root, by) + distance(by, goal_);
   }
 
-  CellRoute route_to(std::uint32_t number) {
+  CellRoute route_to(std::uint32_t number) const {
+    CellRoute route{start_, goal_, {}, {}};
     for (std::uint32_t n = number; n != no_number; n = nodes_[n].parent) {
-      route_.cells.push_back(nodes_[n].cell);
-      if (nodes_[n].door != no_number) route_.doors.push_back(nodes_[n].door);
+      route.cells.push_back(nodes_[n].cell);
+      if (nodes_[n].door != no_number) route.doors.push_back(nodes_[n].door);
     }
-    std::reverse(route_.cells.begin(), route_.cells.end());
-    std::reverse(route_.doors.begin(), route_.doors.end());
-    return std::move(route_);
+    std::reverse(route.cells.begin(), route.cells.end());
+    std::reverse(route.doors.begin(), route.doors.end());
+    return route;
   }
 
   const CellDecomposition& cells_;
@@ -407,11 +415,9 @@ class TautSearch {
   std::vector<double> best_;                     // of each door: the least length of a way to its corner, as a root
   std::vector<std::vector<Bend>> bends_;         // of each door: at its corner
   std::vector<std::vector<LastRay>> last_rays_;  // of each door: seen through it
-  std::vector<char> holds_goal_;
   std::vector<Node> nodes_;
   std::priority_queue<Waiting> queue_;
   double floor_ = 0.0;  // the estimate of the node that is expanded: children are no nearer to the goal
-  CellRoute route_;
   std::uint64_t expanded_ = 0;
 };
 
@@ -454,7 +460,9 @@ class CellPlanning {
   void run(const CellRoadmap& roadmap) {
     cells_ = &roadmap.cells;
     points_ = &roadmap.points;
-    for (const Vec2 end : {start_, goal_}) plan_.cells.places.push_back(locate(*cells_, roadmap.obstacles, end));
+    for (const Vec2 end : {start_, goal_}) {
+      plan_.cells.places.push_back(locate(*cells_, roadmap.obstacles, end, execution_));
+    }
     run();
   }
   Solution<Vec2>& solution() { return solution_; }
@@ -464,7 +472,11 @@ class CellPlanning {
   void run() {
     solution_.roadmap.milestones = cells_->cells.size();
     solution_.roadmap.edges = cells_->doors.size();
-    if (ends_are_blocked() || share_a_cell()) return;
+    if (start_place().blocked || goal_place().blocked) {
+      solution_.outcome = start_place().blocked ? Outcome::start_blocked : Outcome::goal_blocked;
+      return;
+    }
+    if (share_a_cell()) return;
     connect_cells();
     if (!ends_are_joined()) return;
     find_route();
@@ -475,11 +487,6 @@ class CellPlanning {
   VertexId start_vertex() const { return static_cast<VertexId>(cells_->cells.size()); }
   VertexId goal_vertex() const { return start_vertex() + 1; }
 
-  bool ends_are_blocked() {
-    if (!start_place().blocked && !goal_place().blocked) return false;
-    solution_.outcome = start_place().blocked ? Outcome::start_blocked : Outcome::goal_blocked;
-    return true;
-  }
   /// Both in one convex cell, or in one point: the straight way.
   bool share_a_cell() {
     const std::vector<VertexId>& s = start_place().cells;
@@ -516,7 +523,13 @@ class CellPlanning {
     const bool over_cells = !has_queue(options_.search);
     const bool by_middles = options_.doors == DoorKind::midpoint;
     plan_.route = {start_, goal_, {}, {}};
-    if (!over_cells && !by_middles && follow_taut_route()) return;
+    if (!over_cells && !by_middles) {
+      const bool informed = options_.search == SearchKind::astar;
+      TautSearch search(*cells_, plan_.cells.places, start_, goal_, informed, execution_);
+      plan_.route = search.run();
+      solution_.counters.expanded = search.expanded();
+      if (!plan_.route.cells.empty()) return;  // else rounding has cut the last way off: one through the middles does
+    }
     if ((!over_cells || by_middles) && points_ == nullptr) points_ = &own_points_.emplace(*cells_, execution_);
     SearchState state;
     const SearchResult found =
@@ -531,8 +544,6 @@ class CellPlanning {
     const auto count = static_cast<VertexId>(cells_->doors.size());
     const VertexId start = count;
     const VertexId goal = count + 1;
-    std::vector<char> holds_goal(cells_->cells.size(), 0);
-    for (const VertexId cell : goal_place().cells) holds_goal[cell] = 1;
     const auto neighbours = [&](VertexId v, const auto& visit) {
       if (v == start) {
         for (const VertexId cell : start_place().cells) {
@@ -545,7 +556,7 @@ class CellPlanning {
         for_each_door(cell, [&](std::uint32_t d) {
           if (d != v) visit(d, points_->leg_length(v, d));
         });
-        if (holds_goal[cell] != 0) visit(goal, distance(points_->middle(v), goal_));
+        if (holds(goal_place(), cell)) visit(goal, distance(points_->middle(v), goal_));
       }
     };
     const bool informed = options_.search == SearchKind::astar;
@@ -564,23 +575,11 @@ class CellPlanning {
     }
     middles_ = route.doors;
   }
-  /// False where nothing is left although the cells are connected, since rounding has cut the last way off: then a way
-  /// through the doors' middles does.
-  bool follow_taut_route() {
-    const bool informed = options_.search == SearchKind::astar;
-    TautSearch search(*cells_, plan_.cells.places, start_, goal_, informed, execution_);
-    plan_.route = search.run();
-    solution_.counters.expanded = search.expanded();
-    return !plan_.route.cells.empty();
-  }
   /// doors: start's vertex, doors, goal's vertex. A door that is reached but not passed (all legs lie in one cell) is
   /// left out, at the ends too.
   void follow_doors(std::span<const VertexId> doors) {
     CellRoute& route = plan_.route;
     middles_.assign(doors.begin() + 1, doors.end() - 1);
-    const auto holds = [](const CellPlace& place, std::uint32_t cell) {
-      return std::binary_search(place.cells.begin(), place.cells.end(), cell);
-    };
     const std::size_t last = doors.size() - 2;
     for (std::size_t i = 1; i <= last; ++i) {
       const std::uint32_t door = doors[i];

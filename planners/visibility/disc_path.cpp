@@ -549,27 +549,14 @@ class DiscSearch {
   std::uint64_t settled_ = 0;
 };
 
-/// The largest coordinate's size, and the world's: what roundings are parts of.
-struct WorldSize {
-  double largest = 0.0;
-  double extent = 0.0;
-
-  WorldSize(Box box, Vec2 start, Vec2 goal) {
-    box.include(start);
-    box.include(goal);
-    for (const double c : {box.min.x, box.min.y, box.max.x, box.max.y}) largest = std::max(largest, std::abs(c));
-    extent = box.width() + box.height();
-  }
-};
-
 /// One question: both searches.
 class DiscPlan {
  public:
   DiscPlan(const DiscGround& ground, const Graph* known, Vec2 start, Vec2 goal, double radius,
            const Execution& execution)
-      : size_(ground.box, start, goal),
-        doubt_(1e-12 * radius + 64.0 * unit_rounding * size_.extent),
-        room_(doubt_ + 8.0 * unit_rounding * size_.largest),
+      : world_(with_points(ground.box, start, goal)),
+        doubt_(1e-12 * radius + 64.0 * unit_rounding * (world_.width() + world_.height())),
+        room_(doubt_ + 8.0 * unit_rounding * std::max({-world_.min.x, world_.max.x, -world_.min.y, world_.max.y})),
         sight_(ground, known, start, goal, radius + room_, execution),
         loose_(sight_, {radius, radius - 0.5 * doubt_, true}, room_, path_),
         tight_(sight_, {radius + room_, radius + 0.5 * room_, false}, room_, path_) {
@@ -583,6 +570,12 @@ class DiscPlan {
   }
 
  private:
+  static Box with_points(Box box, Vec2 start, Vec2 goal) {
+    box.include(start);
+    box.include(goal);
+    return box;
+  }
+
   Outcome plan() {
     if (!loose_.stands(sight_.start)) return blocked(Outcome::start_blocked);
     if (!loose_.stands(sight_.goal)) return blocked(Outcome::goal_blocked);
@@ -615,7 +608,7 @@ class DiscPlan {
     return tight_.stands(sight_.goal) ? Outcome::solved : Outcome::goal_blocked;
   }
 
-  const WorldSize size_;
+  const Box world_;     // roundings are parts of its size, and of its largest coordinate
   const double doubt_;  // what counts as rounding
   const double room_;   // by which circles are larger, and more than coordinates are rounded by
   DiscSight sight_;

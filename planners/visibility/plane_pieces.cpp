@@ -109,6 +109,40 @@ std::pair<Vec2, Vec2> view_of(const Box& b) {
   return {{b.min.x, b.max.y}, b.max};
 }
 
+/// A piece that leaves the point, and how many more polygons lie anticlockwise of it than clockwise.
+struct Spoke {
+  Vec2 towards;
+  int rise;
+  PointId end;
+};
+
+void add_spokes(const PlanePieces& pieces, std::uint32_t piece, Vec2 at, std::vector<Spoke>& spokes) {
+  const Segment s = pieces.segment(piece);
+  if (!on_segment(at, s)) return;
+  const Piece& p = pieces.pieces()[piece];
+  if (!(s.a == at)) spokes.push_back({s.a, -p.rise, p.a});
+  if (!(s.b == at)) spokes.push_back({s.b, p.rise, p.b});
+}
+
+/// Sorts the spokes, at least one, and calls visit(spoke, next spoke) for the free sectors between them.
+template <class Visit>
+void visit_free(const PlanePieces& pieces, Vec2 at, std::vector<Spoke>& spokes, const Execution& execution,
+                const Visit& visit) {
+  const DirectionOrder before(at);
+  polled_sort(spokes.begin(), spokes.end(), execution,
+              [&](const Spoke& s, const Spoke& t) { return before(s.towards, t.towards); });
+  // The depth was taken just anticlockwise of +x: past the first spoke if that is +x, else before all.
+  int depth = pieces.depth_beside(at);
+  if (spokes[0].towards.y == at.y && spokes[0].towards.x > at.x) depth -= spokes[0].rise;
+  for (std::size_t i = 0; i < spokes.size(); ++i) {
+    depth += spokes[i].rise;
+    if (depth == 0) visit(spokes[i], spokes[(i + 1) % spokes.size()]);
+  }
+}
+
+constexpr double place_doubt = 1e-12;  // places that differ by more are in the directions' order for certain
+constexpr std::size_t near_per_poll = 1 << 14;
+
 }  // namespace
 
 PlanePieces::PlanePieces(const PlaneObstacles& obstacles, const Execution& execution) {
@@ -119,7 +153,15 @@ PlanePieces::PlanePieces(const PlaneObstacles& obstacles, const Execution& execu
   for (std::size_t i = 0; i < sides.corner_ends; ++i)
     corner_count_ = std::max<std::size_t>(corner_count_, number[i] + 1);
   cut(number, sides.rise, execution);
-  list_at_points(execution);
+  execution.reserve((points_.size() + 2 * pieces_.size()) * sizeof(std::uint32_t));
+  const auto each = [&](const auto& visit) {
+    for (std::uint32_t i = 0; i < pieces_.size(); ++i) {
+      if (i % pieces_a_look == 0) execution.check();
+      visit(pieces_[i].a, i);
+      visit(pieces_[i].b, i);
+    }
+  };
+  at_point_ = items_by_key(points_.size(), each, [&] { execution.check(); });
   std::vector<Segment> segments(pieces_.size());
   for (std::size_t i = 0; i < segments.size(); ++i) segments[i] = segment(static_cast<std::uint32_t>(i));
   grid_ = SegmentGrid(segments, execution);
@@ -172,10 +214,6 @@ void PlanePieces::cut(std::span<const PointId> ends, std::span<const std::int32_
     }
     pieces.push_back({last, ends[2 * i + 1], rises[i]});
   }
-  merge(pieces, execution);
-}
-
-void PlanePieces::merge(RawVector<Piece>& pieces, const Execution& execution) {
   for (Piece& p : pieces) {
     if (p.a > p.b) p = {p.b, p.a, -p.rise};
   }
@@ -190,32 +228,16 @@ void PlanePieces::merge(RawVector<Piece>& pieces, const Execution& execution) {
   }
 }
 
-void PlanePieces::list_at_points(const Execution& execution) {
-  execution.reserve((points_.size() + 2 * pieces_.size()) * sizeof(std::uint32_t));
-  const auto each = [&](const auto& visit) {
-    for (std::uint32_t i = 0; i < pieces_.size(); ++i) {
-      if (i % pieces_a_look == 0) execution.check();
-      visit(pieces_[i].a, i);
-      visit(pieces_[i].b, i);
-    }
-  };
-  at_point_ = items_by_key(points_.size(), each, [&] { execution.check(); });
-}
-
-int PlanePieces::rise_across(std::uint32_t piece, Vec2 from, Vec2 to) const {
-  const Segment s = segment(piece);
-  const bool meets = from.x == to.x ? (s.a.x <= from.x) != (s.b.x <= from.x) : (s.a.y <= from.y) != (s.b.y <= from.y);
-  if (!meets) return 0;
-  const bool was_left = is_left(s, from);
-  if (was_left == is_left(s, to)) return 0;
-  return was_left ? -pieces_[piece].rise : pieces_[piece].rise;
-}
-
 int PlanePieces::rise_in_cell(SegmentGrid::Cell cell, Vec2 from, Vec2 to) const {
   if (from == to) return 0;
   int rise = 0;
   for (const std::uint32_t piece : grid_.in_cell(cell)) {
-    if (pieces_[piece].rise != 0) rise += rise_across(piece, from, to);
+    if (pieces_[piece].rise == 0) continue;
+    const Segment s = segment(piece);
+    const bool meets = from.x == to.x ? (s.a.x <= from.x) != (s.b.x <= from.x) : (s.a.y <= from.y) != (s.b.y <= from.y);
+    if (!meets) continue;
+    const bool was_left = is_left(s, from);
+    if (was_left != is_left(s, to)) rise += was_left ? -pieces_[piece].rise : pieces_[piece].rise;
   }
   return rise;
 }
@@ -368,13 +390,6 @@ void NearPieces::propose_beyond(SegmentGrid::Cell from) {
   if (from.row <= home_.row) propose({from.col, from.row - 1});
 }
 
-void NearPieces::enter(SegmentGrid::Cell cell) {
-  if (++entered_ % 64 == 0) execution_.check();
-  if (is_hidden(cell)) return;
-  for (const std::uint32_t piece : pieces_.grid().in_cell(cell)) see(piece);
-  propose_beyond(cell);
-}
-
 std::span<const std::uint32_t> NearPieces::look(Vec2 p, std::span<const PlaceRange> ranges, bool upwards) {
   const SegmentGrid& grid = pieces_.grid();
   seen_.clear();
@@ -398,48 +413,15 @@ std::span<const std::uint32_t> NearPieces::look(Vec2 p, std::span<const PlaceRan
   while (!next_.empty()) {
     now_.swap(next_);
     next_.clear();
-    for (const SegmentGrid::Cell cell : now_) enter(cell);
+    for (const SegmentGrid::Cell cell : now_) {
+      if (++entered_ % 64 == 0) execution_.check();
+      if (is_hidden(cell)) continue;
+      for (const std::uint32_t piece : grid.in_cell(cell)) see(piece);
+      propose_beyond(cell);
+    }
   }
   return seen_;
 }
-
-namespace {
-
-/// A piece that leaves the point, and how many more polygons lie anticlockwise of it than clockwise.
-struct Spoke {
-  Vec2 towards;
-  int rise;
-  PointId end;
-};
-
-void add_spokes(const PlanePieces& pieces, std::uint32_t piece, Vec2 at, std::vector<Spoke>& spokes) {
-  const Segment s = pieces.segment(piece);
-  if (!on_segment(at, s)) return;
-  const Piece& p = pieces.pieces()[piece];
-  if (!(s.a == at)) spokes.push_back({s.a, -p.rise, p.a});
-  if (!(s.b == at)) spokes.push_back({s.b, p.rise, p.b});
-}
-
-/// Sorts the spokes, at least one, and calls visit(spoke, next spoke) for the free sectors between them.
-template <class Visit>
-void visit_free(const PlanePieces& pieces, Vec2 at, std::vector<Spoke>& spokes, const Execution& execution,
-                const Visit& visit) {
-  const DirectionOrder before(at);
-  polled_sort(spokes.begin(), spokes.end(), execution,
-              [&](const Spoke& s, const Spoke& t) { return before(s.towards, t.towards); });
-  // The depth was taken just anticlockwise of +x: past the first spoke if that is +x, else before all.
-  int depth = pieces.depth_beside(at);
-  if (spokes[0].towards.y == at.y && spokes[0].towards.x > at.x) depth -= spokes[0].rise;
-  for (std::size_t i = 0; i < spokes.size(); ++i) {
-    depth += spokes[i].rise;
-    if (depth == 0) visit(spokes[i], spokes[(i + 1) % spokes.size()]);
-  }
-}
-
-constexpr double place_doubt = 1e-12;  // places that differ by more are in the directions' order for certain
-constexpr std::size_t near_per_poll = 1 << 14;
-
-}  // namespace
 
 Lanes lanes_in_sector(Vec2 at, const Sector& sector, Vec2 q) {
   if (sector.whole || sector.first == sector.last) return both_lanes;

@@ -65,10 +65,7 @@ class PlanePieces {
 
   RawVector<Cut> cuts_of(std::span<const Segment> segments, const Execution& execution) const;
   void cut(std::span<const PointId> ends, std::span<const std::int32_t> rises, const Execution& execution);
-  void merge(RawVector<Piece>& pieces, const Execution& execution);
-  void list_at_points(const Execution& execution);
   void sound_depths(const Execution& execution);
-  int rise_across(std::uint32_t piece, Vec2 from, Vec2 to) const;
   int rise_in_cell(SegmentGrid::Cell cell, Vec2 from, Vec2 to) const;
 
   std::vector<Vec2> points_;
@@ -114,7 +111,6 @@ class NearPieces {
   static constexpr std::size_t directions = 512;
   static constexpr double scale = static_cast<double>(directions) / 4.0;  // ranges of directions a place
   void open(std::span<const PlaceRange> ranges);
-  void enter(SegmentGrid::Cell cell);
   /// A piece as seen from the eye, anticlockwise from first to last.
   struct View {
     Vec2 first, last;

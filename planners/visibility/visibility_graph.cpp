@@ -88,6 +88,30 @@ Graph graph_of_rows(std::size_t n, std::vector<RawVector<VertexId>>& parts, cons
   return {std::move(rows.first), std::move(rows.items)};
 }
 
+Vec2 unit_of(Vec2 v) { return (1.0 / norm(v)) * v; }
+
+DiscCircle circle_around(const VisibleCorners& corners, VertexId v) {
+  const Vec2 centre = corners.position(v);
+  const Sector sector = corners.sector(v);
+  DiscCircle circle{centre, unit_of(sector.first - centre), unit_of(sector.last - centre), {}, 0.0, v};
+  circle.begin = {-circle.first.y, circle.first.x};
+  const Vec2 end{circle.last.y, -circle.last.x};
+  const double width = portable::atan2(cross(circle.begin, end), dot(circle.begin, end));
+  circle.width = sector.first == sector.last ? std::numbers::pi : std::max(width, 0.0);
+  return circle;
+}
+
+/// Walls without length, each place once.
+std::vector<Vec2> places_of_points(const std::vector<Segment>& walls, const Execution& execution) {
+  std::vector<Vec2> places;
+  for (const Segment& wall : walls) {
+    if (wall.a == wall.b) push_asked(places, wall.a, execution);
+  }
+  polled_sort(places.begin(), places.end(), execution, is_before);
+  places.erase(std::unique(places.begin(), places.end()), places.end());
+  return places;
+}
+
 }  // namespace
 
 VisibleCorners::VisibleCorners(const PlaneObstacles& obstacles, const Execution& execution)
@@ -257,28 +281,19 @@ VisibilityLinks VisibilityGraph::link(Vec2 start, Vec2 goal, const Execution& ex
 }
 
 Graph VisibilityGraph::joined(const VisibilityLinks& links, const Execution& execution) const {
-  const std::size_t n = size();
-  std::vector<std::uint8_t> sees_start(n, 0);
-  for (const VertexId v : links.from_start) sees_start[v] = 1;
-  RawVector<EdgeEnd> offsets;
-  RawVector<VertexId> targets;
-  offsets.reserve(n + 3);
-  reserve_touched(targets, 2 * (graph_.edge_count() + links.count()), execution);
-  for (VertexId v = 0; v < n; ++v) {
+  std::array<RawVector<Edge>, 2> edges;  // those of the graph are in order, those of start and goal are not
+  execution.reserve((graph_.edge_count() + links.count()) * sizeof(Edge));
+  edges[0].reserve(graph_.edge_count());
+  for (VertexId v = 0; v < size(); ++v) {
     if (v % 256 == 0) execution.check();
-    offsets.push_back(static_cast<EdgeEnd>(targets.size()));
-    targets.insert(targets.end(), graph_.neighbours(v).begin(), graph_.neighbours(v).end());
-    if (sees_start[v] != 0) targets.push_back(start_vertex());
-    if (links.sees_goal[v] != 0) targets.push_back(goal_vertex());
+    for (const VertexId w : graph_.neighbours(v)) {
+      if (v < w) edges[0].push_back({v, w});
+    }
   }
-  offsets.push_back(static_cast<EdgeEnd>(targets.size()));
-  targets.insert(targets.end(), links.from_start.begin(), links.from_start.end());
-  if (links.direct) targets.push_back(goal_vertex());
-  offsets.push_back(static_cast<EdgeEnd>(targets.size()));
-  targets.insert(targets.end(), links.from_goal.begin(), links.from_goal.end());
-  if (links.direct) targets.push_back(start_vertex());
-  offsets.push_back(static_cast<EdgeEnd>(targets.size()));
-  return Graph(std::move(offsets), std::move(targets));
+  for (const VertexId v : links.from_start) edges[1].push_back({v, start_vertex()});
+  for (const VertexId v : links.from_goal) edges[1].push_back({v, goal_vertex()});
+  if (links.direct) edges[1].push_back({start_vertex(), goal_vertex()});
+  return assemble_graph(size() + 2, edges, execution);
 }
 
 SearchResult VisibilityGraph::search(const VisibilityLinks& links, SearchKind search, QueueKind queue,
@@ -302,10 +317,9 @@ std::vector<Edge> sampled_visibility(const PolygonIndex& polygons, Vec2 start, V
                                      const Execution& execution) {
   constexpr double places_of_ends = 100.0;
   constexpr double units = 1e-14;
-  double size = 0.0;
   const Box& box = polygons.box();
-  for (const double c : {box.min.x, box.min.y, box.max.x, box.max.y}) size = std::max(size, std::abs(c));
-  const auto is_inside = [&, rounding = units * size](Vec2 p) {
+  const double rounding = units * std::max({0.0, -box.min.x, box.max.x, -box.min.y, box.max.y});
+  const auto is_inside = [&](Vec2 p) {
     const auto polygon = polygons.polygon_around(p);
     if (!polygon) return false;
     return polygons.for_each_side_near(*polygon, Box{p, p}.grown(rounding),
@@ -357,34 +371,6 @@ double depth_inside(const PolygonIndex& polygons, const Segment& segment, std::s
   return deepest;
 }
 
-namespace {
-
-Vec2 unit_of(Vec2 v) { return (1.0 / norm(v)) * v; }
-
-DiscCircle circle_around(const VisibleCorners& corners, VertexId v) {
-  const Vec2 centre = corners.position(v);
-  const Sector sector = corners.sector(v);
-  DiscCircle circle{centre, unit_of(sector.first - centre), unit_of(sector.last - centre), {}, 0.0, v};
-  circle.begin = {-circle.first.y, circle.first.x};
-  const Vec2 end{circle.last.y, -circle.last.x};
-  const double width = portable::atan2(cross(circle.begin, end), dot(circle.begin, end));
-  circle.width = sector.first == sector.last ? std::numbers::pi : std::max(width, 0.0);
-  return circle;
-}
-
-/// Walls without length, each place once.
-std::vector<Vec2> places_of_points(const std::vector<Segment>& walls) {
-  std::vector<Vec2> places;
-  for (const Segment& wall : walls) {
-    if (wall.a == wall.b) places.push_back(wall.a);
-  }
-  std::sort(places.begin(), places.end(), [](Vec2 p, Vec2 q) { return p.x != q.x ? p.x < q.x : p.y < q.y; });
-  places.erase(std::unique(places.begin(), places.end()), places.end());
-  return places;
-}
-
-}  // namespace
-
 DiscGround::DiscGround(const PlaneObstacles& obstacles, const Execution& execution)
     : corners(obstacles, execution), box(box_around(obstacles)) {
   if (!obstacles.bounds && !box.empty()) room = box;
@@ -400,7 +386,7 @@ DiscGround::DiscGround(const PlaneObstacles& obstacles, const Execution& executi
     circles.push_back(circle_around(corners, v));
   }
   first_whole = static_cast<std::uint32_t>(circles.size());
-  const std::vector<Vec2> points = places_of_points(obstacles.walls);
+  const std::vector<Vec2> points = places_of_points(obstacles.walls, execution);
   execution.reserve(points.size() * (sizeof(Segment) + sizeof(DiscCircle)));
   for (const Vec2 p : points) {
     execution.check();

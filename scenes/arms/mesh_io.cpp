@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
 #include <map>
 #include <numbers>
 #include <span>
@@ -63,18 +62,26 @@ class MeshCollector {
     if (points() == 0) throw InputError(name_, "the mesh has no points");
     execution_.reserve(points() / 8 + 1);
     std::vector<bool> used(points(), mesh_.triangles.empty());
-    for (const MeshTriangle& triangle : mesh_.triangles)
-      for (const std::uint32_t corner : triangle) used[corner] = true;
+    for_each_corner([&](std::uint32_t& corner) { used[corner] = true; });
     const std::size_t some = static_cast<std::size_t>(std::find(used.begin(), used.end(), true) - used.begin());
-    for (std::size_t i = 0; i < points(); ++i)
+    for (std::size_t i = 0; i < points(); ++i) {
+      execution_.poll(i);
       if (!used[i]) mesh_.points[i] = mesh_.points[some];
+    }
     const std::vector<std::uint32_t> numbers = weld_points(mesh_.points, execution_);
-    for (MeshTriangle& triangle : mesh_.triangles)
-      for (std::uint32_t& corner : triangle) corner = numbers[corner];
+    for_each_corner([&](std::uint32_t& corner) { corner = numbers[corner]; });
     return std::move(mesh_);
   }
 
  private:
+  template <class Visit>
+  void for_each_corner(const Visit& visit) {
+    for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
+      execution_.poll(i);
+      for (std::uint32_t& corner : mesh_.triangles[i]) visit(corner);
+    }
+  }
+
   const std::string& name_;
   const Vec3 scale_;
   const Execution& execution_;
@@ -345,7 +352,10 @@ class ColladaReader {
 bool is_closed(const Mesh& mesh, const Execution& execution) {
   std::array<std::vector<std::uint64_t>, 2> sides;
   execution.reserve(mesh.triangles.size() * 6 * sizeof(std::uint64_t));
-  for (const MeshTriangle& t : mesh.triangles) {
+  for (auto& some : sides) some.reserve(3 * mesh.triangles.size());
+  for (std::size_t number = 0; number < mesh.triangles.size(); ++number) {
+    execution.poll(number);
+    const MeshTriangle& t = mesh.triangles[number];
     for (std::size_t i = 0; i < 3; ++i) {
       const std::uint64_t a = t[i];
       const std::uint64_t b = t[(i + 1) % 3];
@@ -367,30 +377,6 @@ Mesh read_mesh(const InputFile& file, const Execution& execution, const Vec3& sc
   if (ending == "stl") return read_stl(file, scale, execution);
   if (ending == "dae") return ColladaReader(file, scale, execution).read();
   throw InputError(file.name(), "expected a mesh of an ending that is known: .obj, .stl, .dae", ending);
-}
-
-std::vector<std::string> mesh_places(const std::string& name, const ArmFiles& files) {
-  namespace fs = std::filesystem;
-  constexpr std::string_view of_package = "package://";
-  constexpr std::string_view of_file = "file://";
-  if (name.starts_with(of_file)) return {name.substr(of_file.size())};
-  const bool is_package = name.starts_with(of_package);
-  const std::string path = is_package ? name.substr(of_package.size()) : name;
-  if (fs::path(path).is_absolute()) return {path};
-  std::vector<std::string> found;
-  std::error_code error;
-  fs::path folder = fs::absolute(files.urdf, error).lexically_normal().parent_path();
-  if (!is_package) found.push_back((folder / path).string());
-  const auto add = [&](const fs::path& beside) {
-    found.push_back((beside / path).string());
-    if (is_package) found.push_back((beside / path.substr(std::min(path.find('/'), path.size() - 1) + 1)).string());
-  };
-  for (const std::string& package : files.packages) add(package);
-  for (std::size_t up = 0; is_package && up < 64; ++up, folder = folder.parent_path()) {
-    add(folder);
-    if (folder == folder.parent_path()) break;
-  }
-  return found;
 }
 
 std::string hull_excess(const Mesh& mesh, const Solid& hull, const Execution& execution) {

@@ -27,7 +27,6 @@
 #include "core/base/error.hpp"
 #include "parallel/asked_memory.hpp"
 #include "scenes/arms/arm_files_io.hpp"
-#include "scenes/arms/solid_text.hpp"
 #include "scenes/text/yaml_file_io.hpp"
 
 namespace warren {
@@ -35,25 +34,21 @@ namespace {
 
 using YAML::Node;
 
-/// Numbers as scenes have them, so that a pose which nothing moves is written as it was read.
-struct PoseNumbers {
-  std::array<double, 3> at{};
-  std::array<double, 4> turn{0.0, 0.0, 0.0, 1.0};
+/// Place and quaternion as scenes have them, so that a pose which nothing moves is written as it was read.
+using PoseNumbers = std::array<double, 7>;
+constexpr PoseNumbers at_origin{0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0};
 
-  std::array<double, 7> all() const { return {at[0], at[1], at[2], turn[0], turn[1], turn[2], turn[3]}; }
-  Eigen::Isometry3d pose() const { return pose_of_numbers(all()); }
-  bool is_identity() const {
-    return at == std::array{0.0, 0.0, 0.0} && turn[0] == 0.0 && turn[1] == 0.0 && turn[2] == 0.0;
-  }
-};
-
+bool is_identity(const PoseNumbers& pose) {
+  return std::all_of(pose.begin(), pose.end() - 1, [](double x) { return x == 0.0; });
+}
 bool is_identity(const Eigen::Isometry3d& pose) { return pose.matrix() == Eigen::Matrix4d::Identity(); }
 
 PoseNumbers joined(const Eigen::Isometry3d& outer, const PoseNumbers& inner) {
   if (is_identity(outer)) return inner;
-  const Eigen::Isometry3d whole = outer * inner.pose();
+  const Eigen::Isometry3d whole = outer * pose_of_numbers(inner);
   const Vec3 at = whole.translation();
-  return {{at.x(), at.y(), at.z()}, quaternion_of_turn(whole.linear())};
+  const auto [x, y, z, w] = quaternion_of_turn(whole.linear());
+  return {at.x(), at.y(), at.z(), x, y, z, w};
 }
 
 /// Scenes and requests: nodes as what they should be, and what they say of the scene. Each error names its line.
@@ -196,15 +191,16 @@ class MoveItReader {
   }
   PoseNumbers pose(const Node& node, const char* at_key = "position", const char* turn_key = "orientation") const {
     expect_keys(node, "a pose", {at_key, turn_key});
-    PoseNumbers pose;
-    if (const Node place = at(node, at_key); !place.IsNull()) pose.at = numbers<3>(place, at_key);
-    if (const Node turn = at(node, turn_key); !turn.IsNull()) pose.turn = quaternion(turn, turn_key);
+    PoseNumbers pose = at_origin;
+    if (const Node place = at(node, at_key); !place.IsNull())
+      std::ranges::copy(numbers<3>(place, at_key), pose.begin());
+    if (const Node turn = at(node, turn_key); !turn.IsNull()) take_turn(turn, turn_key, pose);
     return pose;
   }
-  std::array<double, 4> quaternion(const Node& node, std::string_view key) const {
+  void take_turn(const Node& node, std::string_view key, PoseNumbers& pose) const {
     const auto turn = numbers<4>(node, key);
     if (turn == std::array<double, 4>{}) yaml_.place(node).fail("a quaternion must not be 0 0 0 0");
-    return turn;
+    std::ranges::copy(turn, pose.begin() + 3);
   }
   /// A word, as a line of a scene holds it.
   std::string word(const Node& node, std::string_view key) const {
@@ -244,22 +240,22 @@ class MoveItReader {
     for_each(state, "transforms", [&](const Node& transform) {
       const PoseNumbers place = pose(transform, "translation", "rotation");
       const Node name = i < names.size() ? names[i++] : Node();
-      if (place.is_identity() && !base_is_said()) return;
+      if (is_identity(place) && !base_is_said()) return;
       const RobotFrames* const known = robot();
       if (known == nullptr || !name.IsScalar() || name.Scalar().empty() || name.Scalar() != known->base_joint) {
-        if (known != nullptr && place.is_identity()) return;
+        if (known != nullptr && is_identity(place)) return;
         yaml_.fail(
             transform,
             "only the SRDF's virtual joint, by its name in `joint_names`, has the robot's root apart from 0 0 0; "
             "name both files beside the scene: `--robot \"urdf FILE srdf FILE\"`");
       }
-      const bool is_flat = place.at[2] == 0.0 && place.turn[0] == 0.0 && place.turn[1] == 0.0;
-      if (!place.is_identity() && known->base_kind != "floating" && !(is_flat && known->base_kind == "planar"))
+      const bool is_flat = place[2] == 0.0 && place[3] == 0.0 && place[4] == 0.0;
+      if (!is_identity(place) && known->base_kind != "floating" && !(is_flat && known->base_kind == "planar"))
         yaml_.fail(transform, fmt::format("joint {} is {} in the SRDF, so the robot can't stand like this; make it "
                                           "floating there",
                                           known->base_joint, known->base_kind));
       if (robot_line() != nullptr) robot_line()->base_pose.reset();
-      arm().base_pose = place.all();
+      arm().base_pose = place;
       robot_.reset();
       if (const std::string frame = frame_name(state); !frame.empty() && !is_world(frame))
         yaml_.fail(at(at(state, "header"), "frame_id"), "the robot's root is placed in the frame of the world alone");
@@ -279,7 +275,7 @@ class MoveItReader {
     constexpr std::string_view zero("\0", 1);  // as ROS 2 prints a byte
     if (!operation.IsNull() && does != "0" && does != zero && does != "add" && does != "ADD")
       yaml_.fail(operation, "`operation` must be 0 or add: the objects that are there");
-    const Eigen::Isometry3d stand = joined(frame, pose(at(object, "pose"))).pose();
+    const Eigen::Isometry3d stand = pose_of_numbers(joined(frame, pose(at(object, "pose"))));
     for (const char* key : {"planes", "plane_poses"}) {
       if (count(object, key) > 0) yaml_.fail(at(object, key), "planes are not read: a box does instead");
     }
@@ -379,10 +375,9 @@ class MoveItReader {
     for_each(root, "fixed_frame_transforms", [&](const Node& frame) {
       expect_keys(frame, "a fixed frame", {"header", "child_frame_id", "transform"});
       const PoseNumbers place = pose(needed(frame, "transform"), "translation", "rotation");
-      if (place.is_identity() == is_apart) return;
+      if (is_identity(place) == is_apart) return;
       const std::string name = frame_name(frame);
-      const Node child = at(frame, "child_frame_id");
-      const std::string to = child.IsScalar() ? child.Scalar() : "";
+      const std::string to(YamlFile::text_of(at(frame, "child_frame_id")));
       const bool has_no_name = is_apart && (name.empty() || name == to || frames_.named.contains(name));
       const bool is_to_link = base_is_said() && link_frame(to) != nullptr;
       if (has_no_name || ((is_apart || is_to_link) && !is_world(to))) {
@@ -392,7 +387,7 @@ class MoveItReader {
                    "0 0 0 names");
       }
       know_frame(to);
-      if (!name.empty()) frames_.named.emplace(name, NamedFrame{place.pose()});
+      if (!name.empty()) frames_.named.emplace(name, NamedFrame{pose_of_numbers(place)});
     });
   }
 
@@ -430,8 +425,7 @@ class MoveItReader {
     const Node object = needed(attached, "object");
     const Eigen::Isometry3d frame = frame_on_link(link, object);
     std::vector<AttachedSolid>& all = arm().attached;
-    const Node id = at(object, "id");
-    const std::string name = id.IsScalar() ? id.Scalar() : "";
+    const std::string name(YamlFile::text_of(at(object, "id")));
     std::erase_if(all, [&](const AttachedSolid& old) {
       if (name.empty() || old.solid.name != name) return false;
       for (const std::string& other : old.may_touch)
@@ -451,16 +445,16 @@ class MoveItReader {
     const auto solid = [&](std::string_view word, const std::vector<double>& numbers) {
       return solid_of_numbers(*solid_word_named(word), numbers, yaml_.place(shape), execution_);
     };
-    const auto& [x, y, z] = pose.at;
+    const auto [x, y, z, qx, qy, qz, qw] = pose;
     if (name == "box" || name == "1") {
       const auto sides = numbers<3>(size, "dimensions");
-      return solid("obox", {x, y, z, pose.turn[0], pose.turn[1], pose.turn[2], pose.turn[3], 0.5 * sides[0],
-                            0.5 * sides[1], 0.5 * sides[2]});
+      return solid("obox", {x, y, z, qx, qy, qz, qw, 0.5 * sides[0], 0.5 * sides[1], 0.5 * sides[2]});
     }
     if (name == "sphere" || name == "2") return solid("sphere", {x, y, z, numbers<1>(size, "dimensions")[0]});
     if (name == "cylinder" || name == "3") {
       const auto [height, radius] = numbers<2>(size, "dimensions");
-      const Vec3 reach = 0.5 * height * pose.pose().linear().col(2);
+      if (height < 0.0) yaml_.place(size).fail("a cylinder's height must be at least 0", fmt::format("{}", height));
+      const Vec3 reach = 0.5 * height * pose_of_numbers(pose).linear().col(2);
       return solid("cylinder",
                    {x - reach.x(), y - reach.y(), z - reach.z(), x + reach.x(), y + reach.y(), z + reach.z(), radius});
     }
@@ -468,7 +462,7 @@ class MoveItReader {
   }
   Solid mesh(const Node& shape, const PoseNumbers& stand) const {
     expect_keys(shape, "a mesh", {"vertices", "triangles"});
-    const Eigen::Isometry3d pose = stand.pose();
+    const Eigen::Isometry3d pose = pose_of_numbers(stand);
     std::vector<double> all;
     for_each(shape, "vertices", [&](const Node& vertex) {
       const auto [x, y, z] = numbers<3>(vertex, "vertices");
@@ -512,16 +506,16 @@ class MoveItReader {
     };
     PoseNumbers own = pose(at(object, "pose"));
     const bool is_mesh = count(object, "primitives") == 0;
-    if (own.is_identity() && count(object, "primitives") + count(object, "meshes") == 1)
+    if (is_identity(own) && count(object, "primitives") + count(object, "meshes") == 1)
       own = pose(at(object, is_mesh ? "mesh_poses" : "primitive_poses")[0]);
-    const Eigen::Isometry3d stand = joined(frame.pose, own).pose();
+    const Eigen::Isometry3d stand = pose_of_numbers(joined(frame.pose, own));
     name(id.Scalar(), stand);
     const Node names = items(object, "subframe_names");
     if (names.size() != count(object, "subframe_poses"))
       yaml_.place(object).fail("`subframe_poses` must have as many items as `subframe_names`");
     std::size_t i = 0;
     for_each(object, "subframe_poses", [&](const Node& place) {
-      name(id.Scalar() + "/" + names[i++].Scalar(), joined(stand, pose(place)).pose());
+      name(id.Scalar() + "/" + names[i++].Scalar(), pose_of_numbers(joined(stand, pose(place))));
     });
   }
   /// As MoveIt reads it: what stands above the diagonal; defaults where there is no entry, false before true.
@@ -621,9 +615,11 @@ class MoveItReader {
     const Eigen::Isometry3d frame = frame_in_world(place, true);
     const Node middle = at(region, "primitive_poses")[0];
     expect_keys(middle, "a pose", {"position", "orientation"});
-    PoseNumbers pose = joined(frame, {.at = numbers<3>(needed(middle, "position"), "position")});
+    PoseNumbers pose = at_origin;
+    std::ranges::copy(numbers<3>(needed(middle, "position"), "position"), pose.begin());
+    pose = joined(frame, pose);
     if (count(goal, kinds[2]) == 0) {
-      scene_.goal.assign(pose.at.begin(), pose.at.end());
+      scene_.goal.assign(pose.begin(), pose.begin() + 3);
       return;
     }
     const Node turned = at(goal, kinds[2])[0];
@@ -631,8 +627,11 @@ class MoveItReader {
                 {"header", "orientation", "link_name", "absolute_x_axis_tolerance", "absolute_y_axis_tolerance",
                  "absolute_z_axis_tolerance", "parameterization", "weight"});
     const Eigen::Isometry3d turned_frame = frame_in_world(turned, true);
-    pose.turn = joined(turned_frame, {.turn = quaternion(needed(turned, "orientation"), "orientation")}).turn;
-    scene_.goal_pose = pose.pose();
+    PoseNumbers turn = at_origin;
+    take_turn(needed(turned, "orientation"), "orientation", turn);
+    turn = joined(turned_frame, turn);
+    std::copy(turn.begin() + 3, turn.end(), pose.begin() + 3);
+    scene_.goal_pose = pose_of_numbers(pose);
   }
   void take_joint_goal(const Node& goal) const {
     NamedState state;
@@ -670,15 +669,12 @@ void read_moveit(Scene& scene, MoveItFrames& frames, const InputFile& file, std:
 
 bool is_moveit_scene(std::string_view name, std::string_view bytes) {
   constexpr std::size_t head = 4096;
-  const auto has = [](std::string_view text, std::string_view word) {
-    return text.find(word) != std::string_view::npos;
-  };
   if (name.ends_with(".yaml") || name.ends_with(".yml")) {
-    return has(bytes, "collision_objects") || has(bytes, "robot_model_name");
+    return bytes.find("collision_objects") != bytes.npos || bytes.find("robot_model_name") != bytes.npos;
   }
   const std::string_view begin = bytes.substr(0, head);
   for (const std::string key : {"world:", "robot_model_name:", "allowed_collision_matrix:"}) {
-    if (begin.starts_with(key) || has(begin, "\n" + key)) return true;
+    if (begin.starts_with(key) || begin.find("\n" + key) != begin.npos) return true;
   }
   return false;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scenes/arms/solid_text.hpp"
+#include "scenes/arms/arm_files_io.hpp"
 
 #include <fmt/format.h>
 
@@ -35,7 +35,7 @@ void append_numbers(std::string& text, std::span<const double> numbers) {
   for (const double x : numbers) fmt::format_to(std::back_inserter(text), " {}", x + 0.0);  // no negative zeros
 }
 
-/// The numbers of a solid that no line gave, and their word.
+/// The numbers of a solid that no line gave.
 std::vector<double> numbers_of(const Solid& solid) {
   std::vector<double> numbers;
   const auto add = [&](const Vec3& p) { numbers.insert(numbers.end(), p.begin(), p.end()); };
@@ -67,21 +67,18 @@ const SolidWord* solid_word_named(std::string_view name) {
   return found == solid_words.end() ? nullptr : found;
 }
 
-Eigen::Matrix3d turn_of_quaternion(double x, double y, double z, double w) {
-  const double most = std::max({std::abs(x), std::abs(y), std::abs(z), std::abs(w)});
-  for (double* const c : {&x, &y, &z, &w}) *c /= most;
-  const double s = 2.0 / (x * x + y * y + z * z + w * w);
-  Eigen::Matrix3d turn;
-  turn << 1.0 - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w),  //
-      s * (x * y + z * w), 1.0 - s * (x * x + z * z), s * (y * z - x * w),      //
-      s * (x * z - y * w), s * (y * z + x * w), 1.0 - s * (x * x + y * y);
-  return turn;
-}
-
 Eigen::Isometry3d pose_of_numbers(std::span<const double> numbers) {
+  std::array<double, 4> quaternion{};
+  std::copy_n(numbers.begin() + 3, 4, quaternion.begin());
+  auto& [x, y, z, w] = quaternion;
+  const double most = std::max({std::abs(x), std::abs(y), std::abs(z), std::abs(w)});
+  for (double& c : quaternion) c /= most;
+  const double s = 2.0 / (x * x + y * y + z * z + w * w);
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.translation() = point_at(numbers, 0);
-  pose.linear() = turn_of_quaternion(numbers[3], numbers[4], numbers[5], numbers[6]);
+  pose.linear() << 1.0 - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w),  //
+      s * (x * y + z * w), 1.0 - s * (x * x + z * z), s * (y * z - x * w),               //
+      s * (x * z - y * w), s * (y * z + x * w), 1.0 - s * (x * x + y * y);
   return pose;
 }
 

@@ -22,7 +22,6 @@
 #include "core/base/error.hpp"
 #include "parallel/asked_memory.hpp"
 #include "scenes/arms/arm_files_io.hpp"
-#include "scenes/arms/solid_text.hpp"
 #include "scenes/arms/urdf_tree_io.hpp"
 #include "scenes/arms/xml_file_io.hpp"
 #include "scenes/scene/convex_hull.hpp"
@@ -38,72 +37,61 @@ struct UrdfGroup {
   std::size_t tip = no_urdf_part;  // number of a link
 };
 
-/// Reads one group of an SRDF and those that it names: chains, joints, links (the joint that each hangs on).
-class SrdfGroupReader {
- public:
-  SrdfGroupReader(const UrdfTree& tree, const XmlFile& srdf, const Execution& execution)
-      : tree_(tree), srdf_(srdf), execution_(execution), group_{std::vector<bool>(tree.joints.size(), false)} {}
-
-  UrdfGroup read(const std::string& name) {
-    add_group(srdf_.root(), name);
-    for (std::size_t i = 0; i < groups_.size(); ++i) read_group(groups_[i]);
-    for (const pugi::xml_node passive : srdf_.root().children("passive_joint")) {
-      const std::size_t joint = tree_.joint_named(passive.attribute("name").value());
-      if (joint != no_urdf_part) group_.has[joint] = false;
-    }
-    return std::move(group_);
-  }
-
- private:
-  void add_group(pugi::xml_node asked, const std::string& name) {
-    if (!seen_.insert(name).second) return;
-    execution_.check();
+/// One group of an SRDF and those that it names: chains, joints, links (the joint that each hangs on).
+UrdfGroup group_of_srdf(const UrdfTree& tree, const XmlFile& srdf, const std::string& asked,
+                        const Execution& execution) {
+  UrdfGroup group{std::vector<bool>(tree.joints.size(), false)};
+  std::vector<pugi::xml_node> groups;
+  std::set<std::string> seen;
+  const auto add_group = [&](pugi::xml_node by, const std::string& name) {
+    if (!seen.insert(name).second) return;
+    execution.check();
     std::string known;
-    for (const pugi::xml_node group : srdf_.root().children("group")) {
-      if (group.attribute("name").value() == name) return groups_.push_back(group);
-      if (known.size() < 200) known += fmt::format("{}{}", known.empty() ? "" : ", ", group.attribute("name").value());
+    for (const pugi::xml_node other : srdf.root().children("group")) {
+      if (other.attribute("name").value() == name) return groups.push_back(other);
+      if (known.size() < 200) known += fmt::format("{}{}", known.empty() ? "" : ", ", other.attribute("name").value());
     }
-    srdf_.fail(asked, known.empty() ? "it has no groups" : fmt::format("its groups are {}", known), name);
-  }
-  void read_group(pugi::xml_node group) {
-    const bool has_tip = group_.tip != no_urdf_part;
-    for (const pugi::xml_node chain : group.children("chain")) {
-      const std::size_t tip = link_named(chain, "tip_link");
-      for (const std::size_t joint : tree_.between(link_named(chain, "base_link"), tip)) group_.has[joint] = true;
-      if (!has_tip) group_.tip = tip;
-    }
-    for (const pugi::xml_node joint : group.children("joint")) add_joint(joint);
-    for (const pugi::xml_node link : group.children("link")) {
-      const std::size_t joint = tree_.links[link_named(link, "name")].joint;
-      if (joint != no_urdf_part) group_.has[joint] = true;
-    }
-    for (const pugi::xml_node inner : group.children("group")) add_group(inner, srdf_.word(inner, "name"));
-  }
-  std::size_t link_named(pugi::xml_node node, const char* attribute) const {
-    const std::string name = srdf_.word(node, attribute);
-    const std::size_t link = tree_.link_named(name);
-    if (link == no_urdf_part) srdf_.fail(node, fmt::format("{} has no link of this name", tree_.xml.name()), name);
+    srdf.fail(by, known.empty() ? "it has no groups" : fmt::format("its groups are {}", known), name);
+  };
+  const auto link_of = [&](pugi::xml_node node, const char* attribute) {
+    const std::string name = srdf.word(node, attribute);
+    const std::size_t link = tree.link_named(name);
+    if (link == no_urdf_part) srdf.fail(node, fmt::format("{} has no link of this name", tree.xml.name()), name);
     return link;
-  }
-  void add_joint(pugi::xml_node node) {
-    execution_.check();
-    const std::string name = srdf_.word(node, "name");
-    const pugi::xml_node base = srdf_.root().find_child_by_attribute("virtual_joint", "name", name.c_str());
+  };
+  const auto add_joint = [&](pugi::xml_node node) {
+    execution.check();
+    const std::string name = srdf.word(node, "name");
+    const pugi::xml_node base = srdf.root().find_child_by_attribute("virtual_joint", "name", name.c_str());
     if (std::string_view(base.attribute("type").value()) == "fixed") return;
-    const std::size_t joint = tree_.joint_named(name);
-    if (base || (joint != no_urdf_part && tree_.joints[joint].kind == UrdfJointKind::floating))
-      srdf_.fail(node, "a base that moves is not planned for; name the joints of the arm alone", name);
-    if (joint == no_urdf_part) srdf_.fail(node, fmt::format("{} has no joint of this name", tree_.xml.name()), name);
-    group_.has[joint] = true;
+    const std::size_t joint = tree.joint_named(name);
+    if (base || (joint != no_urdf_part && tree.joints[joint].kind == UrdfJointKind::floating))
+      srdf.fail(node, "a base that moves is not planned for; name the joints of the arm alone", name);
+    if (joint == no_urdf_part) srdf.fail(node, fmt::format("{} has no joint of this name", tree.xml.name()), name);
+    group.has[joint] = true;
+  };
+  add_group(srdf.root(), asked);
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    const pugi::xml_node read = groups[i];
+    const bool has_tip = group.tip != no_urdf_part;
+    for (const pugi::xml_node chain : read.children("chain")) {
+      const std::size_t tip = link_of(chain, "tip_link");
+      for (const std::size_t joint : tree.between(link_of(chain, "base_link"), tip)) group.has[joint] = true;
+      if (!has_tip) group.tip = tip;
+    }
+    for (const pugi::xml_node joint : read.children("joint")) add_joint(joint);
+    for (const pugi::xml_node link : read.children("link")) {
+      const std::size_t joint = tree.links[link_of(link, "name")].joint;
+      if (joint != no_urdf_part) group.has[joint] = true;
+    }
+    for (const pugi::xml_node inner : read.children("group")) add_group(inner, srdf.word(inner, "name"));
   }
-
-  const UrdfTree& tree_;
-  const XmlFile& srdf_;
-  const Execution& execution_;
-  UrdfGroup group_;
-  std::vector<pugi::xml_node> groups_;
-  std::set<std::string> seen_;
-};
+  for (const pugi::xml_node passive : srdf.root().children("passive_joint")) {
+    const std::size_t joint = tree.joint_named(passive.attribute("name").value());
+    if (joint != no_urdf_part) group.has[joint] = false;
+  }
+  return group;
+}
 
 /// use: what the link is for, " to be the tool".
 std::size_t link_named(const ArmFiles& files, const UrdfTree& tree, const std::string& name, std::string_view use) {
@@ -112,46 +100,30 @@ std::size_t link_named(const ArmFiles& files, const UrdfTree& tree, const std::s
   return link;
 }
 
-/// Collision meshes as hulls, each file and scale once.
-class MeshShelf {
- public:
-  MeshShelf(const ArmFiles& files, const XmlFile& xml, const Execution& execution)
-      : files_(files), xml_(xml), execution_(execution) {}
-
-  const Solid& hull(pugi::xml_node mesh) {
-    const std::string path = found(mesh, xml_.word(mesh, "filename"));
-    const Vec3 scale = xml_.vector(mesh, "scale", Vec3::Ones());
-    const auto [at, is_new] = hulls_.try_emplace({path, {scale.x(), scale.y(), scale.z()}});
-    if (!is_new) return at->second;
-    const Mesh read = read_mesh(InputFile(path, execution_), execution_, scale);
-    at->second = convex_hull(read.points, path, execution_);
-    told.push_back(fmt::format("hull of {}: {}", std::filesystem::path(path).filename().string(),
-                               hull_excess(read, at->second, execution_)));
-    return at->second;
+/// Where the mesh that a URDF calls `name` may be, in this order.
+std::vector<std::string> mesh_places(const std::string& name, const ArmFiles& files) {
+  namespace fs = std::filesystem;
+  constexpr std::string_view of_package = "package://";
+  constexpr std::string_view of_file = "file://";
+  if (name.starts_with(of_file)) return {name.substr(of_file.size())};
+  const bool is_package = name.starts_with(of_package);
+  const std::string path = is_package ? name.substr(of_package.size()) : name;
+  if (fs::path(path).is_absolute()) return {path};
+  std::vector<std::string> found;
+  std::error_code error;
+  fs::path folder = fs::absolute(files.urdf, error).lexically_normal().parent_path();
+  if (!is_package) found.push_back((folder / path).string());
+  const auto add = [&](const fs::path& beside) {
+    found.push_back((beside / path).string());
+    if (is_package) found.push_back((beside / path.substr(std::min(path.find('/'), path.size() - 1) + 1)).string());
+  };
+  for (const std::string& package : files.packages) add(package);
+  for (std::size_t up = 0; is_package && up < 64; ++up, folder = folder.parent_path()) {
+    add(folder);
+    if (folder == folder.parent_path()) break;
   }
-
-  std::vector<std::string> told;  ///< a line a mesh
-
- private:
-  std::string found(pugi::xml_node mesh, const std::string& name) const {
-    const std::vector<std::string> tried = mesh_places(name, files_);
-    for (const std::string& place : tried) {
-      std::error_code error;
-      if (std::filesystem::is_regular_file(place, error)) return place;
-    }
-    constexpr std::size_t most_shown = 6;
-    const auto shown = std::span(tried).first(std::min(most_shown, tried.size()));
-    xml_.fail(mesh,
-              fmt::format("the mesh is not there; looked for {}{}; `package-path DIR` says where its package is",
-                          fmt::join(shown, ", "), tried.size() > most_shown ? " and in the folders above" : ""),
-              name);
-  }
-
-  const ArmFiles& files_;
-  const XmlFile& xml_;
-  const Execution& execution_;
-  std::map<std::pair<std::string, std::array<double, 3>>, Solid> hulls_;
-};
+  return found;
+}
 
 /// Of what hangs on a joint that moves, from where it hangs while the joint's value is 0.
 Eigen::Isometry3d motion(const UrdfJoint& joint, double value) {
@@ -173,7 +145,7 @@ Eigen::Isometry3d base_of(const ArmFiles& files) {
 class ArmModelMaker {
  public:
   ArmModelMaker(const ArmFiles& files, const UrdfTree& tree, const UrdfGroup& group, const Execution& execution)
-      : files_(files), tree_(tree), group_(group), execution_(execution), shelf_(files, tree.xml, execution) {}
+      : files_(files), tree_(tree), group_(group), execution_(execution) {}
 
   ArmModel make(const XmlFile* srdf) {
     model_.name = tree_.xml.root().attribute("name").value();
@@ -185,11 +157,10 @@ class ArmModelMaker {
     place_links(tool);
     model_.tool_frame = frames_[tool];
     model_.tool = poses_[tool];
+    model_.told.push_back(fmt::format("the tool is {}", tree_.links[tool].name));
     add_links();
     carry();
     pair_links(srdf);
-    model_.told.push_back(fmt::format("the tool is {}", tree_.links[tool].name));
-    model_.told.insert(model_.told.end(), shelf_.told.begin(), shelf_.told.end());
     if (!missing_.empty())
       model_.told.push_back(fmt::format("named, but not in the robot: {}", fmt::join(missing_, ", ")));
     return std::move(model_);
@@ -396,7 +367,7 @@ class ArmModelMaker {
     const std::string_view kind = node.name();
     Solid solid;
     if (kind == "mesh") {
-      const Solid& hull = shelf_.hull(node);
+      const Solid& hull = hull_of(node);
       execution_.reserve(hull.corners.size() * sizeof(Vec3) + hull.faces.size() * sizeof(hull.faces[0]));
       return hull;
     }
@@ -415,6 +386,33 @@ class ArmModelMaker {
     return solid;
   }
 
+  /// Collision meshes as hulls, each file and scale once.
+  const Solid& hull_of(pugi::xml_node mesh) {
+    const std::string path = place_of(mesh, tree_.xml.word(mesh, "filename"));
+    const Vec3 scale = tree_.xml.vector(mesh, "scale", Vec3::Ones());
+    const auto [at, is_new] = hulls_.try_emplace({path, {scale.x(), scale.y(), scale.z()}});
+    if (!is_new) return at->second;
+    const Mesh read = read_mesh(InputFile(path, execution_), execution_, scale);
+    at->second = convex_hull(read.points, path, execution_);
+    model_.told.push_back(fmt::format("hull of {}: {}", std::filesystem::path(path).filename().string(),
+                                      hull_excess(read, at->second, execution_)));
+    return at->second;
+  }
+
+  std::string place_of(pugi::xml_node mesh, const std::string& name) const {
+    const std::vector<std::string> tried = mesh_places(name, files_);
+    for (const std::string& place : tried) {
+      std::error_code error;
+      if (std::filesystem::is_regular_file(place, error)) return place;
+    }
+    constexpr std::size_t most_shown = 6;
+    const auto shown = std::span(tried).first(std::min(most_shown, tried.size()));
+    tree_.xml.fail(mesh,
+                   fmt::format("the mesh is not there; looked for {}{}; `package-path DIR` says where its package is",
+                               fmt::join(shown, ", "), tried.size() > most_shown ? " and in the folders above" : ""),
+                   name);
+  }
+
   void carry() {
     for (const AttachedSolid& attached : files_.attached) {
       const std::size_t link = link_named(files_, tree_, attached.link, to_carry);
@@ -427,6 +425,7 @@ class ArmModelMaker {
 
   /// Numbers of links that may touch, the lower first; those of one's own name too.
   using Allowed = std::set<std::pair<std::size_t, std::size_t>>;
+  static constexpr std::size_t bytes_a_pair = 64;
   static std::pair<std::size_t, std::size_t> ordered(std::size_t a, std::size_t b) { return std::minmax(a, b); }
 
   void pair_links(const XmlFile* srdf) {
@@ -442,19 +441,25 @@ class ArmModelMaker {
     Allowed allowed;
     const auto allow = [&](std::string_view one, std::string_view other) {
       const auto others = numbers_named(other);
-      for (const std::size_t a : numbers_named(one))
+      for (const std::size_t a : numbers_named(one)) {
+        execution_.reserve(others.size() * bytes_a_pair);
         for (const std::size_t b : others) allowed.insert(ordered(a, b));
+      }
     };
     if (srdf != nullptr) allow_by_srdf(*srdf, allow);
     for (const auto& [one, other] : files_.allowed) allow(one, other);
     for (std::size_t i = own; i < count; ++i) {
-      for (const std::string& link : files_.attached[i - own].may_touch)
-        for (const std::size_t a : numbers_named(link)) allowed.insert(ordered(a, i));
+      for (const std::string& link : files_.attached[i - own].may_touch) {
+        const auto others = numbers_named(link);
+        execution_.reserve(others.size() * bytes_a_pair);
+        for (const std::size_t a : others) allowed.insert(ordered(a, i));
+      }
     }
     allow_neighbours(allowed);
     for (std::size_t a = 0; a < count; ++a) {
       execution_.check();
       for (std::size_t b = a + 1; b < count; ++b) {
+        execution_.poll(b);
         if (model_.links[a].frame == model_.links[b].frame || allowed.contains({a, b})) continue;
         push_asked(model_.pairs, {static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b)}, execution_);
       }
@@ -471,7 +476,6 @@ class ArmModelMaker {
       enabled.insert(std::minmax<std::string_view>(link_in(pair, "link1"), link_in(pair, "link2")));
     for (const pugi::xml_node node : srdf.root().children("disable_default_collisions")) {
       const std::string_view link = link_in(node, "link");
-      constexpr std::size_t bytes_a_pair = 64;
       execution_.check();
       execution_.reserve(model_.links.size() * bytes_a_pair);
       for (const ArmLink& other : model_.links)
@@ -497,20 +501,20 @@ class ArmModelMaker {
   const UrdfTree& tree_;
   const UrdfGroup& group_;
   const Execution& execution_;
-  MeshShelf shelf_;
   ArmModel model_;
-  std::vector<std::size_t> variables_;    // by joint
-  std::vector<double> held_;              // by joint
-  std::vector<int> frames_;               // by link
-  std::vector<Eigen::Isometry3d> poses_;  // by link, in its frame
-  std::vector<std::size_t> numbers_;      // by link, in the model
-  std::set<std::string> missing_;         // what is named, but not there
+  std::vector<std::size_t> variables_;                                    // by joint
+  std::vector<double> held_;                                              // by joint
+  std::vector<int> frames_;                                               // by link
+  std::vector<Eigen::Isometry3d> poses_;                                  // by link, in its frame
+  std::vector<std::size_t> numbers_;                                      // by link, in the model
+  std::set<std::string> missing_;                                         // what is named, but not there
+  std::map<std::pair<std::string, std::array<double, 3>>, Solid> hulls_;  // of files and scales
 };
 
 UrdfGroup chosen_group(const ArmFiles& files, const UrdfTree& tree, const XmlFile* srdf, const Execution& execution) {
   if (!files.group.empty()) {
     if (srdf == nullptr) throw InputError(files.urdf, "`group` needs `srdf FILE`, whose group it names", files.group);
-    return SrdfGroupReader(tree, *srdf, execution).read(files.group);
+    return group_of_srdf(tree, *srdf, files.group, execution);
   }
   if (files.base.empty() && files.tip.empty()) return {std::vector<bool>(tree.joints.size(), true), no_urdf_part};
   UrdfGroup group{std::vector<bool>(tree.joints.size(), false), link_named(files, tree, files.tip, "")};
@@ -522,8 +526,11 @@ UrdfGroup chosen_group(const ArmFiles& files, const UrdfTree& tree, const XmlFil
 }  // namespace
 
 ArmModel read_urdf(const ArmFiles& files, const Execution& execution) {
-  const InputFile file(files.urdf, execution);
-  const XmlFile xml(file, "robot", most_urdf_bytes, execution);
+  return read_urdf(files, InputFile(files.urdf, execution), execution);
+}
+
+ArmModel read_urdf(const ArmFiles& files, const InputFile& urdf, const Execution& execution) {
+  const XmlFile xml(urdf, "robot", most_urdf_bytes, execution);
   const UrdfTree tree(xml, execution);
   std::optional<InputFile> srdf_file;
   std::optional<XmlFile> srdf;

@@ -6,7 +6,6 @@
 #include <pugixml.hpp>
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -21,6 +20,7 @@
 #include "core/base/enum_names.hpp"
 #include "core/base/types.hpp"
 #include "core/run/execution.hpp"
+#include "parallel/sort.hpp"
 #include "scenes/arms/xml_file_io.hpp"
 #include "scenes/scene/arm_model.hpp"
 
@@ -80,6 +80,7 @@ class UrdfTree {
     refuse_macros();
     execution.reserve(static_cast<std::size_t>(std::distance(parts.begin(), parts.end())) * bytes_a_part);
     for (const pugi::xml_node node : xml.root().children("link")) {
+      execution.poll(links.size());
       links.push_back({xml.word(node, "name"), node});
       if (!link_numbers_.emplace(links.back().name, links.size() - 1).second)
         xml.fail(node, "a second link of this name", links.back().name);
@@ -127,6 +128,7 @@ class UrdfTree {
       xml.fail(macro, "not a URDF yet; `xacro FILE > robot.urdf` makes one");
   }
   void add_joint(pugi::xml_node node) {
+    execution_.poll(joints.size());
     UrdfJoint joint{xml.word(node, "name"), node};
     const std::string kind = xml.word(node, "type");
     const auto known = enum_named<UrdfJointKind>(kind);
@@ -190,8 +192,8 @@ class UrdfTree {
         link.joint = sorted.size() - 1;
         joint_numbers_[sorted.back().name] = link.joint;
       }
-      std::sort(link.joints.begin(), link.joints.end(),
-                [&](std::size_t a, std::size_t b) { return joints[a].name > joints[b].name; });
+      polled_sort(link.joints.begin(), link.joints.end(), execution_,
+                  [&](std::size_t a, std::size_t b) { return joints[a].name > joints[b].name; });
       for (const std::size_t joint : link.joints) left.push_back(joints[joint].below);
       link.joints.clear();
       if (sorted.size() % 64 == 0) execution_.check();
@@ -199,6 +201,7 @@ class UrdfTree {
     if (sorted.size() != joints.size()) xml.fail(xml.root(), "some joints go around in a circle");
     joints = std::move(sorted);
     for (std::size_t j = 0; j < joints.size(); ++j) {
+      execution_.poll(j);
       if (joints[j].kind == UrdfJointKind::floating && joints[j].above != root)
         xml.fail(joints[j].node, "floating joints are not planned for; make it fixed where the body is");
       links[joints[j].above].joints.push_back(j);
@@ -206,8 +209,11 @@ class UrdfTree {
   }
   /// Along each chain of followers: value = m (m' value' + o') + o.
   void find_leaders() {
-    std::vector<UrdfJoint> read = joints;
-    for (UrdfJoint& joint : read) {
+    std::vector<UrdfJoint> read;
+    read.reserve(joints.size());
+    for (const UrdfJoint& in_file : joints) {
+      execution_.poll(read.size());
+      UrdfJoint& joint = read.emplace_back(in_file);
       const pugi::xml_node mimic = joint.moves() ? joint.node.child("mimic") : pugi::xml_node();
       if (!mimic) continue;
       joint.leader = joint_named(xml.word(mimic, "joint"));
@@ -223,7 +229,8 @@ class UrdfTree {
         joint.leader = at->leader;
         joint.offset += joint.multiplier * at->offset;
         joint.multiplier *= at->multiplier;
-        if (++steps > joints.size()) xml.fail(joint.node, "joints mimic each other in a circle", joint.name);
+        execution_.poll(++steps);
+        if (steps > joints.size()) xml.fail(joint.node, "joints mimic each other in a circle", joint.name);
       }
       if (!(std::abs(joint.multiplier) <= largest_coordinate && std::abs(joint.offset) <= largest_coordinate))
         xml.fail(joint.node, "`multiplier` and `offset` along its mimics must not exceed 1e60", joint.name);

@@ -39,10 +39,9 @@ constexpr std::size_t longest_word = 32;  // of those that mean something: longe
 
 /// Nested lists of points: chains, and the groups of chains.
 struct Coordinates {
-  std::vector<std::vector<Vec2>> chains;
-  std::vector<std::size_t> lines;   ///< where each chain begins
-  std::vector<std::size_t> groups;  ///< the first chain of each group
-  int depth = 0;                    ///< of the positions; 1: a point; 2: a chain; 3: chains; 4: groups
+  std::vector<ScenePolygon> chains;  ///< of points, each with the line where it begins
+  std::vector<std::size_t> groups;   ///< the first chain of each group
+  int depth = 0;                     ///< of the positions; 1: a point; 2: a chain; 3: chains; 4: groups
   bool given = false;
 };
 
@@ -83,8 +82,7 @@ class Reader {
   bool number_float(Json::number_float_t value, const std::string&) { return number(value); }
   bool binary(Json::binary_t&) { return false; }
   bool string(std::string& text) {
-    if (in_coordinates()) fail("expected numbers in \"coordinates\"", text);
-    if (objects_.empty()) fail("expected a GeoJSON object or an array of rings", text);
+    scalar(text);
     if (object().lists > 0) return true;
     if (key_ == "type" && !object().in_properties) object().type = text.substr(0, longest_word);
     if (key_ == "role" && object().in_properties && objects_.size() > 1)
@@ -180,7 +178,7 @@ class Reader {
   }
   bool in_coordinates() const { return list_depth_ > 0; }
   Object& object() { return objects_.back(); }
-  bool scalar(const char* found) {
+  bool scalar(std::string_view found) const {
     if (in_coordinates()) fail("expected numbers in \"coordinates\"", found);
     if (!began_) fail("expected a GeoJSON object or an array of rings", found);
     return true;
@@ -196,12 +194,9 @@ class Reader {
     Coordinates& c = object().coordinates;
     if (c.depth != 0 && c.depth != list_depth_) fail("\"coordinates\" are nested unevenly");
     c.depth = list_depth_;
-    if (!chain_open_) {
-      push_asked(c.chains, {}, execution_);
-      push_asked(c.lines, line_, execution_);
-      chain_open_ = true;
-    }
-    push_asked(c.chains.back(), {position_[0], position_[1]}, execution_);
+    if (!chain_open_) push_asked(c.chains, {{}, line_}, execution_);
+    chain_open_ = true;
+    push_asked(c.chains.back().corners, {position_[0], position_[1]}, execution_);
     position_.clear();
     execution_.poll(++looks_);
   }
@@ -224,24 +219,24 @@ class Reader {
       fail(fmt::format("the \"coordinates\" of a {} are nested {} deep", ended.type, depth), std::to_string(c.depth));
     if (depth >= 3 && ended.type != "MultiLineString") return add_rings(c);
     const bool points = ended.type == "Point" || ended.type == "MultiPoint";
-    for (std::size_t i = 0; i < c.chains.size(); ++i) {
-      if (!points && c.chains[i].size() < 2) fail_at(c.lines[i], "a LineString needs two positions or more");
-      push_asked(waiting_, {points ? Piece::Kind::point : Piece::Kind::wall, c.chains[i], c.lines[i]}, execution_);
+    for (const auto& [chain, line] : c.chains) {
+      if (!points && chain.size() < 2) fail_at(line, "a LineString needs two positions or more");
+      push_asked(waiting_, {points ? Piece::Kind::point : Piece::Kind::wall, chain, line}, execution_);
     }
   }
   /// The first ring of each polygon; the ones after it are its holes. In a bare array each ring is a polygon.
   void add_rings(const Coordinates& c) {
     for (std::size_t i = 0; i < c.chains.size(); ++i) {
-      std::vector<Vec2> ring = c.chains[i];
+      auto [ring, line] = c.chains[i];
       const bool closed = ring.size() > 1 && ring.front() == ring.back();
       if (!bare_ && (!closed || ring.size() < 4)) {
-        fail_at(c.lines[i], "a ring needs four positions or more, the last one equal to the first",
+        fail_at(line, "a ring needs four positions or more, the last one equal to the first",
                 closed ? fmt::format("{} positions", ring.size()) : "an open ring");
       }
       const bool outer = bare_ || (c.depth == 3 ? i == 0 : std::binary_search(c.groups.begin(), c.groups.end(), i));
       if (!bare_) ring.pop_back();
       if (outer) {
-        push_asked(waiting_, {Piece::Kind::polygon, std::move(ring), c.lines[i]}, execution_);
+        push_asked(waiting_, {Piece::Kind::polygon, std::move(ring), line}, execution_);
       } else {
         push_asked(waiting_.back().holes, std::move(ring), execution_);
       }
@@ -296,39 +291,6 @@ class Reader {
 
 std::string position(Vec2 p) { return fmt::format("[{}, {}]", p.x + 0.0, p.y + 0.0); }
 
-/// Writes features, one a line.
-class Writer {
- public:
-  Writer(const std::string& path, const Execution& execution) : file_(path, execution), execution_(execution) {
-    file_.write("{\"type\": \"FeatureCollection\", \"features\": [");
-  }
-  void feature(std::string_view role, std::string_view type, std::string_view coordinates) {
-    execution_.poll(++written_);
-    const std::string properties = role.empty() ? "{}" : fmt::format("{{\"role\": \"{}\"}}", role);
-    file_.write(
-        fmt::format("{}\n{{\"type\": \"Feature\", \"properties\": {}, \"geometry\": {{\"type\": \"{}\", "
-                    "\"coordinates\": {}}}}}",
-                    written_ == 1 ? "" : ",", properties, type, coordinates));
-  }
-  void ring(std::string_view role, std::span<const Vec2> corners) {
-    std::string text = "[[";
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      execution_.poll(i + 1);
-      text += position(corners[i]) + ", ";
-    }
-    feature(role, "Polygon", text + position(corners.front()) + "]]");
-  }
-  void commit() {
-    file_.write("\n]}\n");
-    file_.commit();
-  }
-
- private:
-  OutputFile file_;
-  const Execution& execution_;
-  std::size_t written_ = 0;
-};
-
 }  // namespace
 
 bool is_geojson(std::string_view bytes) {
@@ -349,18 +311,37 @@ void write_geojson(const Scene& scene, const std::string& path, const Execution&
   if (scene.start.size() > 2 || scene.goal.size() > 2) {
     throw InputError(path, "GeoJSON holds places X Y, no states with angles; write them to a .scene file");
   }
-  Writer writer(path, execution);
-  if (scene.bounds) writer.ring("bounds", scene.bounds->corners());
-  if (!scene.start.empty()) writer.feature("start", "Point", position({scene.start[0], scene.start[1]}));
-  if (!scene.goal.empty()) writer.feature("goal", "Point", position({scene.goal[0], scene.goal[1]}));
-  for (const ScenePolygon& polygon : scene.polygons) writer.ring({}, anticlockwise(polygon.corners));
+  OutputFile file(path, execution);
+  std::size_t written = 0;
+  const auto feature = [&](std::string_view role, std::string_view type, std::string_view coordinates) {
+    execution.poll(++written);
+    const std::string properties = role.empty() ? "{}" : fmt::format("{{\"role\": \"{}\"}}", role);
+    file.write(
+        fmt::format("{}\n{{\"type\": \"Feature\", \"properties\": {}, \"geometry\": {{\"type\": \"{}\", "
+                    "\"coordinates\": {}}}}}",
+                    written == 1 ? "" : ",", properties, type, coordinates));
+  };
+  const auto ring = [&](std::string_view role, std::span<const Vec2> corners) {
+    std::string text = "[[";
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      execution.poll(i + 1);
+      text += position(corners[i]) + ", ";
+    }
+    feature(role, "Polygon", text + position(corners.front()) + "]]");
+  };
+  file.write("{\"type\": \"FeatureCollection\", \"features\": [");
+  if (scene.bounds) ring("bounds", scene.bounds->corners());
+  if (!scene.start.empty()) feature("start", "Point", position({scene.start[0], scene.start[1]}));
+  if (!scene.goal.empty()) feature("goal", "Point", position({scene.goal[0], scene.goal[1]}));
+  for (const ScenePolygon& polygon : scene.polygons) ring({}, anticlockwise(polygon.corners));
   scene.walls.visit([&](auto walls) {
     for (const auto& wall : walls) {
       const Segment s = wall.segment();
-      writer.feature({}, "LineString", "[" + position(s.a) + ", " + position(s.b) + "]");
+      feature({}, "LineString", "[" + position(s.a) + ", " + position(s.b) + "]");
     }
   });
-  writer.commit();
+  file.write("\n]}\n");
+  file.commit();
 }
 
 }  // namespace warren

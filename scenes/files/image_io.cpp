@@ -197,15 +197,9 @@ void forget_all_but(std::string_view rest, const InputFile& file, std::size_t& f
   forgotten = read;
 }
 
-/// One sample of a binary row; two bytes, the high one first, where maxval is beyond 255.
-std::uint16_t sample(std::string_view bytes, std::size_t i, bool wide) {
-  const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(bytes[at]); };
-  return static_cast<std::uint16_t>(wide ? byte(2 * i) << 8 | byte(2 * i + 1) : byte(i));
-}
-
 void read_binary(const InputFile& file, const ImageHeader& header, std::string_view pixels, const ImageSink& sink,
                  const Execution& execution) {
-  const bool wide = header.maximum > 255;
+  const bool wide = header.maximum > 255;  // then two bytes a sample, the high one first
   const std::size_t row_bytes = std::size_t{header.width} * (wide ? 2 : 1);
   check_pixels_are_there(file, header, row_bytes, pixels.size());
   std::size_t forgotten = 0;
@@ -213,9 +207,10 @@ void read_binary(const InputFile& file, const ImageHeader& header, std::string_v
     execution.check();
     forget_all_but(pixels.substr(y * row_bytes), file, forgotten);
     const std::string_view row = pixels.substr(y * row_bytes, row_bytes);
+    const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(row[at]); };
     unsigned highest = 0;
-    for (std::uint32_t x = 0; x < header.width; ++x) {
-      samples[x] = sample(row, x, wide);
+    for (std::size_t x = 0; x < header.width; ++x) {
+      samples[x] = static_cast<std::uint16_t>(wide ? byte(2 * x) << 8 | byte(2 * x + 1) : byte(x));
       highest = std::max<unsigned>(highest, samples[x]);
     }
     if (highest > header.maximum) {
@@ -259,8 +254,6 @@ void read_pgm(const InputFile& file, const ImageSink& sink, const Execution& exe
   read_ascii(file, header, tokens, sink, execution);
 }
 
-}  // namespace
-
 bool is_png(std::string_view bytes) { return bytes.starts_with("\x89PNG"); }
 
 bool is_bmp(std::string_view bytes) {
@@ -271,6 +264,10 @@ bool is_pgm(std::string_view bytes) {
   return bytes.size() > 2 && (bytes.starts_with("P5") || bytes.starts_with("P2")) &&
          std::string_view(" \t\r\n#").find(bytes[2]) != std::string_view::npos;
 }
+
+}  // namespace
+
+bool is_image(std::string_view bytes) { return is_png(bytes) || is_pgm(bytes) || is_bmp(bytes); }
 
 void read_image(const InputFile& file, const ImageSink& sink, const Execution& execution) {
   if (is_png(file.bytes())) return read_png(file, sink, execution);

@@ -52,9 +52,8 @@ void read_image(const InputFile& file, const ImageSink& sink, const Execution& e
 /// The same of a PNG, by libpng: every colour type, depth and interlacing, row by row.
 void read_png(const InputFile& file, const ImageSink& sink, const Execution& execution);
 
-bool is_png(std::string_view bytes);
-bool is_pgm(std::string_view bytes);
-bool is_bmp(std::string_view bytes);
+/// Does it begin as a PNG, PGM or BMP does?
+bool is_image(std::string_view bytes);
 
 /// What a cell of which a map server knew nothing becomes.
 enum class UnknownCells : std::uint8_t {

@@ -26,7 +26,7 @@ static_assert(std::endian::native == std::endian::little, "numbers are copied as
 
 constexpr std::string_view magic = "\x89WRMAZE\n";
 constexpr std::uint32_t version = 1;
-constexpr std::uint32_t rows_a_band = 1U << CellBits::usual_side_log2;
+constexpr std::uint32_t rows_a_band = 1U << CellBits::usual_side_log2;  // a row of tiles has a checksum
 constexpr std::size_t header_bytes = 64;
 
 std::size_t bands_of(std::uint64_t rows) { return static_cast<std::size_t>((rows - 1) / rows_a_band + 1); }
@@ -131,12 +131,6 @@ std::string_view MazeFile::band(std::size_t number) const {
   return file_.bytes().substr(header_bytes + number * bytes, std::min(bytes, end - number * bytes));
 }
 
-std::uint32_t MazeFile::sum_of_band(std::size_t number) const {
-  std::uint32_t sum = 0;
-  std::memcpy(&sum, file_.bytes().data() + file_.bytes().size() - 4 * (bands_of(rows()) - number), sizeof sum);
-  return sum;
-}
-
 /// Rows first_row .. last_row - 1: does the outline stand, but for the doors, and is nothing behind the last cell?
 bool MazeFile::has_outline(std::uint32_t first_row, std::uint32_t last_row) const {
   const std::size_t stride = bytes_a_row(cols());
@@ -155,14 +149,15 @@ bool MazeFile::has_outline(std::uint32_t first_row, std::uint32_t last_row) cons
 }
 
 void MazeFile::check(Range tile_rows, const Execution& execution) const {
-  static_assert(rows_a_band == 1U << CellBits::usual_side_log2, "a row of tiles has a checksum");
   if (execution.progress != nullptr) execution.progress->begin("read", tile_rows.size());
   enum : std::uint8_t { good, damaged, open };
   const auto found = parts_of_chunks(tile_rows.size(), 1, execution, [&](Range r) {
     const std::size_t number = tile_rows.first + r.first;
     const auto first_row = static_cast<std::uint32_t>(number * rows_a_band);
     const std::string_view bytes = band(number);
-    const bool is_whole = crc32(bytes) == sum_of_band(number);
+    std::uint32_t sum = 0;
+    std::memcpy(&sum, file_.bytes().data() + file_.bytes().size() - 4 * (bands_of(rows()) - number), sizeof sum);
+    const bool is_whole = crc32(bytes) == sum;
     const bool is_closed = is_whole && has_outline(first_row, std::min(rows(), first_row + rows_a_band));
     const auto at = static_cast<std::size_t>(bytes.data() - file_.bytes().data());
     file_.forget(at, at + bytes.size());
@@ -266,10 +261,6 @@ std::span<const WallOf<T>> walls_in(const InputFile& file, const NpyWalls& array
   return {static_cast<const WallOf<T>*>(data), array.walls};
 }
 
-bool is_aligned(const InputFile& file, const NpyWalls& array) {
-  return reinterpret_cast<std::uintptr_t>(file.bytes().data() + array.data) % alignof(double) == 0;  // NOLINT: a place
-}
-
 /// Rows and columns of an outline in the order of the generator: below, above, left, right.
 template <class T>
 std::optional<MazeHint> size_of(std::span<const WallOf<T>> walls) {
@@ -326,9 +317,7 @@ void NpyMaze::read(const InputFile& file, const Execution& execution) {
   WallsHash hash(walls.size());
   for (std::size_t first = 0; first < walls.size(); first += window) {
     const std::span<const WallOf<T>> some = walls.subspan(first, std::min(window, walls.size() - first));
-    const auto hash_of_chunk = [&](Range r) { return WallsHash::of_chunk(some.subspan(r.first, r.size())); };
-    for (const std::uint64_t part : parts_of_chunks(some.size(), WallsHash::grain, execution, hash_of_chunk))
-      hash.add(part);
+    hash.add(some, execution);
     for (std::size_t i = 0; i < some.size(); ++i) {
       execution.poll(i);
       if (first + i >= 4) add<T>(file, first + i, some[i], execution);
@@ -387,7 +376,8 @@ std::optional<Scene> unmade_maze(const InputFile& file) {
   if (is_maze_file(file.bytes())) return scene_of(MazeFile(file), file.name());
   if (!is_npy(file.bytes())) return std::nullopt;
   const NpyWalls array = npy_walls(file);
-  if (!is_aligned(file, array)) return std::nullopt;
+  const auto place = reinterpret_cast<std::uintptr_t>(file.bytes().data() + array.data);  // NOLINT: a place
+  if (place % alignof(double) != 0) return std::nullopt;
   const auto maze = array.is_float ? size_of(walls_in<float>(file, array)) : size_of(walls_in<double>(file, array));
   return maze ? std::optional(scene_of(*maze, file.name(), std::nullopt)) : std::nullopt;
 }

@@ -26,7 +26,6 @@
 
 namespace warren {
 
-/// Do they begin as every .maze file does?
 bool is_maze_file(std::string_view bytes);
 
 /// A .maze file as it lies on disk, tile by tile. Refers to the file.
@@ -49,7 +48,6 @@ class MazeFile : public CellBits {
   MazeFile(const InputFile& file, MazeHint size);
   bool has_outline(std::uint32_t first_row, std::uint32_t last_row) const;
   std::string_view band(std::size_t number) const;
-  std::uint32_t sum_of_band(std::size_t number) const;
 
   const InputFile& file_;
 };

@@ -59,25 +59,16 @@ class Picture {
   }
 
   Scene scene() const {
-    std::vector<Segment> walls;
+    WallCollector walls(execution_);
     for (std::size_t i = 0; i < lines_.size(); i += 2) {
-      add_runs(
-          walls, cols_, [&](std::size_t c) { return at(i, 4 * c + 2) == '-'; },
-          [&](double x) {
-            return Vec2{x, line_y(i)};
-          });
+      add_runs(walls, cols_, {0.5, line_y(i)}, {1.0, 0.0}, [&](std::size_t c) { return at(i, 4 * c + 2) == '-'; });
     }
     for (std::size_t c = 0; c <= cols_; ++c) {
-      const double x = static_cast<double>(c) + 0.5;
-      add_runs(
-          walls, rows_, [&](std::size_t r) { return at(lines_.size() - 2 - 2 * r, 4 * c) == '|'; },
-          [&](double y) {
-            return Vec2{x, y};
-          });
+      add_runs(walls, rows_, {static_cast<double>(c) + 0.5, 0.5}, {0.0, 1.0},
+               [&](std::size_t r) { return at(lines_.size() - 2 - 2 * r, 4 * c) == '|'; });
     }
-    execution_.reserve(walls.size() * sizeof(DoubleWall));
     Scene scene;
-    scene.walls = WallSet::narrowest(walls);
+    scene.walls = walls.take();
     scene.maze = MazeHint{static_cast<std::uint32_t>(rows_), static_cast<std::uint32_t>(cols_)};
     scene.start = find('S');
     scene.goal = nearest_goal();
@@ -115,15 +106,16 @@ class Picture {
     }
   }
 
-  /// A wall for each run of them, from first - 0.5 to last + 0.5 in cell coordinates; end(coordinate): where that is.
-  template <class IsWall, class End>
-  void add_runs(std::vector<Segment>& walls, std::size_t count, const IsWall& is_wall, const End& end) const {
+  /// A wall for each run of them; the first of `count` would begin at `begin`, and each is a step long.
+  template <class IsWall>
+  void add_runs(WallCollector& walls, std::size_t count, Vec2 begin, Vec2 step, const IsWall& is_wall) const {
     for (std::size_t first = 0; first < count; ++first) {
       execution_.poll(first);
       if (!is_wall(first)) continue;
       std::size_t last = first + 1;
       while (last < count && is_wall(last)) ++last;
-      push_asked(walls, {end(static_cast<double>(first) + 0.5), end(static_cast<double>(last) + 0.5)}, execution_);
+      const Vec2 ends[] = {begin + static_cast<double>(first) * step, begin + static_cast<double>(last) * step};
+      walls.add_chain(ends);
       first = last;
     }
   }
@@ -143,16 +135,6 @@ class Picture {
     return cell < rows_ * cols_ ? middle(cell) : std::vector<double>{};
   }
 
-  template <class Visit>
-  void for_each_open_neighbour(std::size_t cell, const Visit& visit) const {
-    const std::size_t line = 2 * (cell / cols_) + 1;
-    const std::size_t column = 4 * (cell % cols_);
-    if (line > 1 && at(line - 1, column + 2) != '-') visit(cell - cols_);
-    if (column > 0 && at(line, column) != '|') visit(cell - 1);
-    if (cell % cols_ + 1 < cols_ && at(line, column + 4) != '|') visit(cell + 1);
-    if (line + 2 < lines_.size() && at(line + 1, column + 2) != '-') visit(cell + cols_);
-  }
-
   /// The G that takes the fewest cells from S, the first of these in reading order; the first of all where none can be
   /// reached.
   std::vector<double> nearest_goal() const {
@@ -169,10 +151,16 @@ class Picture {
       next.clear();
       for (const std::size_t cell : level) {
         if (mark(cell) == 'G') goal = std::min(goal, cell);
-        for_each_open_neighbour(cell, [&](std::size_t to) {
+        const auto visit = [&](std::size_t to) {
           if (seen[to] == 0) next.push_back(to);
           seen[to] = 1;
-        });
+        };
+        const std::size_t line = 2 * (cell / cols_) + 1;
+        const std::size_t column = 4 * (cell % cols_);
+        if (line > 1 && at(line - 1, column + 2) != '-') visit(cell - cols_);
+        if (column > 0 && at(line, column) != '|') visit(cell - 1);
+        if (cell % cols_ + 1 < cols_ && at(line, column + 4) != '|') visit(cell + 1);
+        if (line + 2 < lines_.size() && at(line + 1, column + 2) != '-') visit(cell + cols_);
       }
       if (goal < count) return middle(goal);
     }
@@ -186,100 +174,87 @@ class Picture {
   std::size_t rows_ = 0;
 };
 
-/// The cells of a file of numbers, drawn as the other kind of file has them.
-class NumberedCells {
- public:
-  NumberedCells(const InputFile& file, const Execution& execution) : name_(file.name()), execution_(execution) {
-    TextLines lines(file, execution);
-    while (lines.next()) {
-      scene_text::Fields fields = lines.fields();
-      if (fields.done()) continue;
-      Cell cell{.line = lines.number()};
-      for (std::uint32_t* number : {&cell.x, &cell.y, &cell.north, &cell.east, &cell.south, &cell.west}) {
-        *number = read(fields, number == &cell.x || number == &cell.y ? 0x7fffffff : 1);
-      }
-      if (!fields.done()) fail(cell, "expected X Y N E S W and no more");
-      push_asked(cells_, cell, execution);
-      cols_ = std::max<std::size_t>(cols_, cell.x + 1);
-      rows_ = std::max<std::size_t>(rows_, cell.y + 1);
-    }
-    if (cells_.empty() || cells_.size() != rows_ * cols_) {
-      throw InputError(name_, fmt::format("expected a line X Y N E S W for each of {} x {} cells", rows_, cols_),
-                       fmt::format("{} lines", cells_.size()));
-    }
-    check();
-  }
-
-  std::string picture() const {
-    const std::size_t width = 4 * cols_ + 2;
-    execution_.reserve(width * (2 * rows_ + 1));
-    std::string text(width * (2 * rows_ + 1), ' ');
-    for (std::size_t row = 0; row <= 2 * rows_; ++row) {
-      for (std::size_t c = 0; c <= cols_ && row % 2 == 0; ++c) text[row * width + 4 * c] = 'o';
-      text[row * width + width - 1] = '\n';
-      execution_.check();
-    }
-    for_cells([&](const Cell& cell) {
-      const std::size_t at = 2 * (rows_ - 1 - cell.y) * width + 4 * std::size_t{cell.x};  // its upper left post
-      if (cell.north != 0) text.replace(at + 1, 3, "---");
-      if (cell.south != 0) text.replace(at + 2 * width + 1, 3, "---");
-      if (cell.west != 0) text[at + width] = '|';
-      if (cell.east != 0) text[at + width + 4] = '|';
-      const auto is_middle = [](std::size_t i, std::size_t count) { return i == (count - 1) / 2 || i == count / 2; };
-      if (is_middle(cell.x, cols_) && is_middle(cell.y, rows_)) text[at + width + 2] = 'G';
-      if (cell.x == 0 && cell.y == 0) text[at + width + 2] = 'S';
-    });
-    return text;
-  }
-
- private:
-  struct Cell {
-    std::size_t line = 0;
-    std::uint32_t x = 0, y = 0, north = 0, east = 0, south = 0, west = 0;
-  };
-
-  [[noreturn]] void fail(const Cell& cell, std::string_view what) const {
-    scene_text::Place{name_, cell.line}.fail(what, {});
-  }
-  static std::uint32_t read(scene_text::Fields& fields, std::uint32_t most) {
-    const std::string_view word = fields.word();
-    const auto number = scene_text::number_in_full<std::uint32_t>(word);
-    if (!number || *number > most) {
-      fields.place().fail("expected X Y N E S W: a cell of a micromouse maze, whole numbers, and 1 where a wall is",
-                          word);
-    }
-    return *number;
-  }
-  template <class Visit>
-  void for_cells(const Visit& visit) const {
-    for (std::size_t i = 0; i < cells_.size(); ++i) {
-      execution_.poll(i);
-      visit(cells_[i]);
-    }
-  }
-  /// No cell is there twice, and two that lie side by side say the same of what is between them.
-  void check() const {
-    execution_.reserve(cells_.size() * sizeof(void*));
-    std::vector<const Cell*> at(cells_.size(), nullptr);
-    for_cells([&](const Cell& cell) {
-      const Cell*& here = at[cell.y * cols_ + cell.x];
-      if (here != nullptr) fail(cell, fmt::format("the cell {} {} is there twice", cell.x, cell.y));
-      here = &cell;
-    });
-    for_cells([&](const Cell& cell) {
-      const std::size_t place = cell.y * cols_ + cell.x;
-      const bool fits =
-          (cell.x == 0 || at[place - 1]->east == cell.west) && (cell.y == 0 || at[place - cols_]->north == cell.south);
-      if (!fits) fail(cell, "a neighbour says otherwise of the wall in the west or south");
-    });
-  }
-
-  const std::string& name_;
-  const Execution& execution_;
-  std::vector<Cell> cells_;
-  std::size_t cols_ = 0;
-  std::size_t rows_ = 0;
+struct NumberedCell {
+  std::size_t line = 0;
+  std::uint32_t x = 0, y = 0, north = 0, east = 0, south = 0, west = 0;
 };
+
+std::vector<NumberedCell> numbered_cells(const InputFile& file, const Execution& execution) {
+  std::vector<NumberedCell> cells;
+  TextLines lines(file, execution);
+  while (lines.next()) {
+    scene_text::Fields fields = lines.fields();
+    if (fields.done()) continue;
+    NumberedCell cell{.line = lines.number()};
+    for (std::uint32_t* number : {&cell.x, &cell.y, &cell.north, &cell.east, &cell.south, &cell.west}) {
+      const std::string_view word = fields.word();
+      const auto read = scene_text::number_in_full<std::uint32_t>(word);
+      if (!read || *read > (number == &cell.x || number == &cell.y ? 0x7fffffffU : 1U)) {
+        fields.place().fail("expected X Y N E S W: a cell of a micromouse maze, whole numbers, and 1 where a wall is",
+                            word);
+      }
+      *number = *read;
+    }
+    if (!fields.done()) fields.place().fail("expected X Y N E S W and no more");
+    push_asked(cells, cell, execution);
+  }
+  return cells;
+}
+
+/// The cells of a file of numbers, drawn as the other kind of file has them. No cell is there twice, and two that lie
+/// side by side say the same of what is between them.
+std::string picture_of_numbers(const InputFile& file, const Execution& execution) {
+  const std::vector<NumberedCell> cells = numbered_cells(file, execution);
+  const auto for_cells = [&](const auto& visit) {
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      execution.poll(i);
+      visit(cells[i]);
+    }
+  };
+  const auto fail = [&](const NumberedCell& cell, std::string_view what) {
+    scene_text::Place{file.name(), cell.line}.fail(what);
+  };
+  std::size_t cols = 0;
+  std::size_t rows = 0;
+  for_cells([&](const NumberedCell& cell) {
+    cols = std::max<std::size_t>(cols, cell.x + 1);
+    rows = std::max<std::size_t>(rows, cell.y + 1);
+  });
+  if (cells.empty() || cells.size() != rows * cols) {
+    throw InputError(file.name(), fmt::format("expected a line X Y N E S W for each of {} x {} cells", rows, cols),
+                     fmt::format("{} lines", cells.size()));
+  }
+  execution.reserve(cells.size() * sizeof(void*));
+  std::vector<const NumberedCell*> at(cells.size(), nullptr);
+  for_cells([&](const NumberedCell& cell) {
+    const NumberedCell*& here = at[cell.y * cols + cell.x];
+    if (here != nullptr) fail(cell, fmt::format("the cell {} {} is there twice", cell.x, cell.y));
+    here = &cell;
+  });
+  const std::size_t width = 4 * cols + 2;
+  execution.reserve(width * (2 * rows + 1));
+  std::string text(width * (2 * rows + 1), ' ');
+  for (std::size_t row = 0; row <= 2 * rows; ++row) {
+    for (std::size_t c = 0; c <= cols && row % 2 == 0; ++c) text[row * width + 4 * c] = 'o';
+    text[row * width + width - 1] = '\n';
+    execution.check();
+  }
+  for_cells([&](const NumberedCell& cell) {
+    const std::size_t place = cell.y * cols + cell.x;
+    const bool fits =
+        (cell.x == 0 || at[place - 1]->east == cell.west) && (cell.y == 0 || at[place - cols]->north == cell.south);
+    if (!fits) fail(cell, "a neighbour says otherwise of the wall in the west or south");
+    const std::size_t corner = 2 * (rows - 1 - cell.y) * width + 4 * std::size_t{cell.x};  // its upper left post
+    if (cell.north != 0) text.replace(corner + 1, 3, "---");
+    if (cell.south != 0) text.replace(corner + 2 * width + 1, 3, "---");
+    if (cell.west != 0) text[corner + width] = '|';
+    if (cell.east != 0) text[corner + width + 4] = '|';
+    const auto is_middle = [](std::size_t i, std::size_t count) { return i == (count - 1) / 2 || i == count / 2; };
+    if (is_middle(cell.x, cols) && is_middle(cell.y, rows)) text[corner + width + 2] = 'G';
+    if (cell.x == 0 && cell.y == 0) text[corner + width + 2] = 'S';
+  });
+  return text;
+}
 
 /// Two whole numbers and four of 0 and 1, as the first line's beginning tells?
 bool are_numbers(std::string_view bytes) {
@@ -312,7 +287,7 @@ bool is_micromouse(std::string_view bytes) {
 
 Scene read_micromouse(const InputFile& file, const Execution& execution) {
   if (are_numbers(file.bytes()) || (file.name().ends_with(".num") && !is_micromouse(file.bytes()))) {
-    return read_micromouse(InputFile::of_bytes(file.name(), NumberedCells(file, execution).picture()), execution);
+    return read_micromouse(InputFile::of_bytes(file.name(), picture_of_numbers(file, execution)), execution);
   }
   if (!is_micromouse(file.bytes())) {
     scene_text::Place{file.name(), 1}.fail("expected a row of posts, o---o---o", file.bytes().substr(0, 40));

@@ -55,11 +55,6 @@ std::vector<std::string_view> fields_of(const TextLines& lines) {
   return split(lines, lines.line().find('\t') != std::string_view::npos ? "\t" : " ");
 }
 
-/// A row of a map without what editors leave behind it.
-std::string_view without_trailing_blanks(std::string_view line, std::size_t width) {
-  return line.substr(0, std::max(width, line.find_last_not_of(" \t\r") + 1));  // npos + 1 is 0
-}
-
 template <class T>
 T number(std::string_view field, const scene_text::Place& place, std::string_view what) {
   const auto value = scene_text::number_in_full<T>(field);
@@ -194,7 +189,8 @@ OccupancyMap read_moving_ai_map(const InputFile& file, const Execution& executio
     if (!lines.next()) {
       throw InputError(file.name(), fmt::format("expected {} rows after `map`", height), fmt::format("{}", row));
     }
-    const std::string_view line = without_trailing_blanks(text_of(lines), width);
+    std::string_view line = text_of(lines);  // editors leave blanks behind it; npos + 1 is 0
+    line = line.substr(0, std::max<std::size_t>(width, line.find_last_not_of(" \t\r") + 1));
     if (line.size() != width) {
       lines.place().fail(fmt::format("expected a row of {} cells", width), fmt::format("{} characters", line.size()));
     }

@@ -9,8 +9,10 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <limits>
+#include <optional>
 #include <set>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -94,14 +96,12 @@ class HeaderParser {
     }
   }
   void parse_type(NpyWalls& header) {
-    skip_blanks();
     if (!rest_.starts_with('\'') && !rest_.starts_with('"')) fail("expected numbers of type <f4 or <f8", rest_);
     const std::string_view type = quoted();
     if (type != "<f4" && type != "<f8") fail("expected numbers of type <f4 or <f8", type);
     header.is_float = type == "<f4";
   }
   void parse_order() {
-    skip_blanks();
     if (rest_.starts_with("True"))
       fail("expected C order, not Fortran order: save numpy.ascontiguousarray(walls)", rest_);
     if (!rest_.starts_with("False")) fail("expected fortran_order False", rest_);
@@ -134,7 +134,6 @@ class HeaderParser {
     if (!accept(c)) fail(fmt::format("expected `{}` in the header", c), rest_);
   }
   std::string_view quoted() {
-    skip_blanks();
     const char quote = rest_.empty() ? '\0' : rest_.front();
     const std::size_t end = quote == '\'' || quote == '"' ? rest_.find(quote, 1) : std::string_view::npos;
     if (end == std::string_view::npos) fail("expected a quoted word in the header", rest_);
@@ -151,114 +150,58 @@ class HeaderParser {
   std::set<std::string_view> seen_;  ///< keys of the header
 };
 
-/// Copies rows out of the file; In is what the file holds.
 template <class In>
-class Rows {
- public:
-  Rows(const InputFile& file, const NpyWalls& header, const Execution& execution)
-      : file_(file), header_(header), execution_(execution) {}
-
-  template <class Wall>
-  WallSet copy() {
-    execution_.reserve(header_.walls * sizeof(Wall));
-    RawVector<Wall> walls(header_.walls);
-    const std::size_t bad = first_in_chunks(header_.walls, npy_grain, execution_, [&](Range r) {
-      bool good = true;
-      for (std::size_t i = r.first; i < r.last; ++i) {
-        const WallOf<In> w = row(i);
-        good = good && is_sane(w) && holds<Wall>(w);  // the file may have changed since it was looked at
-        walls[i] = as<Wall>(w);
-      }
-      const std::size_t first = good ? r.last : first_bad(r);
-      forget(r);
-      return first;
-    });
-    if (bad < header_.walls) refuse(bad);
-    return WallSet(std::move(walls));
-  }
-  bool fit_floats() const {
-    return all([](const WallOf<In>& w) {
-      return exact_as_float(w.x1) && exact_as_float(w.y1) && exact_as_float(w.x2) && exact_as_float(w.y2);
-    });
-  }
-  /// A word for each row that differs from the file's in nothing but by as().
-  bool can_be_packed() const {
-    return all([](const WallOf<In>& w) { return PackedWall::fits(w.x1, w.y1, w.x2, w.y2); });
-  }
-
- private:
-  WallOf<In> row(std::size_t i) const {
-    WallOf<In> wall;
-    std::memcpy(&wall, file_.bytes().data() + header_.data + i * sizeof wall, sizeof wall);
-    return wall;
-  }
-  static bool is_sane(In x) {
-    return std::abs(x) <= static_cast<In>(std::min<double>(largest_coordinate, std::numeric_limits<In>::max()));
-  }
-  static bool is_sane(const WallOf<In>& w) { return is_sane(w.x1) && is_sane(w.y1) && is_sane(w.x2) && is_sane(w.y2); }
-  /// Ends at the first row of each chunk that says no.
-  template <class Test>
-  bool all(const Test& test) const {
-    const Execution quiet{execution_.threads, execution_.deadline};
-    const std::size_t other = first_in_chunks(header_.walls, npy_grain, quiet, [&](Range r) {
-      std::size_t i = r.first;
-      while (i < r.last && test(row(i))) ++i;
-      forget(r);
-      return i;
-    });
-    return other == header_.walls;
-  }
-  template <class Out>
-  static Out number(In x) {
-    return std::abs(static_cast<double>(x)) < smallest_coordinate ? Out{0} : static_cast<Out>(x);
-  }
-  template <class Wall>
-  static bool holds(const WallOf<In>& w) {
-    return !std::is_same_v<Wall, PackedWall> || PackedWall::fits(w.x1, w.y1, w.x2, w.y2);
-  }
-  template <class Wall>
-  static Wall as(const WallOf<In>& w) {
-    if constexpr (std::is_same_v<Wall, PackedWall>) {
-      return holds<Wall>(w) ? PackedWall::of(w.x1, w.y1, w.x2, w.y2) : PackedWall::level(0, 0, 0);
-    } else {
-      using Out = typename Wall::Number;
-      return {number<Out>(w.x1), number<Out>(w.y1), number<Out>(w.x2), number<Out>(w.y2)};
-    }
-  }
-  std::size_t first_bad(Range r) const {
-    std::size_t i = r.first;
-    while (i + 1 < r.last && is_sane(row(i))) ++i;  // the file may change meanwhile
-    return i;
-  }
-  [[noreturn]] void refuse(std::size_t i) const {
-    const Segment s = row(i).segment();
-    throw InputError(fmt::format("{}: row {}", file_.name(), i), "numbers must be finite and at most 1e60 in magnitude",
-                     fmt::format("{} {} {} {}", s.a.x, s.a.y, s.b.x, s.b.y));
-  }
-  void forget(Range r) const {
-    file_.forget(header_.data + r.first * sizeof(WallOf<In>), header_.data + r.last * sizeof(WallOf<In>));
-  }
-
-  const InputFile& file_;
-  const NpyWalls& header_;
-  const Execution& execution_;
-};
-
-WallSet walls_of(const InputFile& file, const NpyWalls& header, const Execution& execution) {
-  const auto floats_of = [](auto& rows) {
-    return rows.can_be_packed() ? rows.template copy<PackedWall>() : rows.template copy<FloatWall>();
-  };
-  if (header.is_float) {
-    Rows<float> rows(file, header, execution);
-    return floats_of(rows);
-  }
-  Rows<double> rows(file, header, execution);
-  return rows.fit_floats() ? floats_of(rows) : rows.copy<DoubleWall>();
+WallOf<In> row_of(const InputFile& file, const NpyWalls& array, std::size_t i) {
+  WallOf<In> wall;
+  std::memcpy(&wall, file.bytes().data() + array.data + i * sizeof wall, sizeof wall);
+  return wall;
 }
 
-template <class T>
-std::string header_of(std::uint64_t walls) {
-  return npy_header(sizeof(T) == sizeof(float) ? "<f4" : "<f8", std::array<std::uint64_t, 2>{walls, 4});
+template <class Wall, class In>
+bool holds(const WallOf<In>& w) {
+  const auto all = [&](const auto& test) { return test(w.x1) && test(w.y1) && test(w.x2) && test(w.y2); };
+  if constexpr (std::is_same_v<Wall, PackedWall>) return PackedWall::fits(w.x1, w.y1, w.x2, w.y2);
+  if constexpr (std::is_same_v<Wall, FloatWall>) return all(exact_as_float<In>);
+  return all([](double x) { return std::abs(x) <= largest_coordinate; });
+}
+
+/// In is what the file holds. None where the type of walls does not hold all: then `bad` is the first of those. Each
+/// chunk ends at its first one.
+template <class Wall, class In>
+std::optional<WallSet> copied(const InputFile& file, const NpyWalls& array, const Execution& execution,
+                              std::size_t& bad) {
+  const auto number = [](double x) { return std::abs(x) < smallest_coordinate ? 0.0 : x; };
+  if (execution.progress != nullptr) execution.progress->begin("read", array.walls);
+  execution.reserve(array.walls * sizeof(Wall));
+  RawVector<Wall> walls(array.walls);
+  bad = first_in_chunks(array.walls, npy_grain, execution, [&](Range r) {
+    std::size_t i = r.first;
+    for (; i < r.last; ++i) {
+      const WallOf<In> w = row_of<In>(file, array, i);
+      if (!holds<Wall>(w)) break;
+      walls[i] = Wall::of(number(w.x1), number(w.y1), number(w.x2), number(w.y2));
+    }
+    file.forget(array.data + r.first * sizeof(WallOf<In>), array.data + r.last * sizeof(WallOf<In>));
+    return i;
+  });
+  if (bad < array.walls) return std::nullopt;
+  return WallSet(std::move(walls));
+}
+
+/// In the narrowest type that holds all of them.
+template <class In>
+WallSet walls_of(const InputFile& file, const NpyWalls& array, const Execution& execution) {
+  std::size_t bad = 0;
+  if (auto walls = copied<PackedWall, In>(file, array, execution, bad)) return std::move(*walls);
+  if (auto walls = copied<FloatWall, In>(file, array, execution, bad)) return std::move(*walls);
+  if (auto walls = copied<WallOf<In>, In>(file, array, execution, bad)) return std::move(*walls);
+  const Segment s = row_of<In>(file, array, bad).segment();
+  throw InputError(fmt::format("{}: row {}", file.name(), bad), "numbers must be finite and at most 1e60 in magnitude",
+                   fmt::format("{} {} {} {}", s.a.x, s.a.y, s.b.x, s.b.y));
+}
+
+std::string header_of(bool is_float, std::uint64_t walls) {
+  return npy_header(is_float ? "<f4" : "<f8", std::array<std::uint64_t, 2>{walls, 4});
 }
 
 }  // namespace
@@ -280,9 +223,8 @@ NpyWalls npy_walls(const InputFile& file) {
 
 Scene read_npy(const InputFile& file, const Execution& execution) {
   const NpyWalls header = npy_walls(file);
-  if (execution.progress != nullptr) execution.progress->begin("read", header.walls);
   Scene scene;
-  scene.walls = walls_of(file, header, execution);
+  scene.walls = header.is_float ? walls_of<float>(file, header, execution) : walls_of<double>(file, header, execution);
   scene.source = file.name();
   if (const auto maze = maze_of_walls(scene.walls, {execution.threads, execution.deadline})) {
     set_maze(scene, *maze);
@@ -292,7 +234,7 @@ Scene read_npy(const InputFile& file, const Execution& execution) {
 
 void write_npy(const WallStrips& walls, const std::string& path, const Execution& execution) {
   OutputFile file(path, execution);
-  file.write(walls.holds_floats() ? header_of<float>(walls.wall_count()) : header_of<double>(walls.wall_count()));
+  file.write(header_of(walls.holds_floats(), walls.wall_count()));
   walls.write([&](std::string_view bytes) { file.write(bytes); }, execution);
   file.commit();
 }
@@ -306,7 +248,7 @@ void write_npy(const Scene& scene, const std::string& path, const Execution& exe
   OutputFile file(path, execution);
   scene.walls.visit([&]<class Wall>(std::span<const Wall> walls) {
     using Row = WallOf<typename Wall::Number>;
-    file.write(header_of<typename Wall::Number>(walls.size()));
+    file.write(header_of(std::is_same_v<typename Wall::Number, float>, walls.size()));
     std::vector<Row> rows;
     for (std::size_t first = 0; first < walls.size(); first += rows.size()) {
       const auto some = walls.subspan(first, std::min(block, walls.size() - first));

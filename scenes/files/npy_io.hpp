@@ -18,7 +18,6 @@
 
 namespace warren {
 
-/// True for the first bytes of every .npy file.
 bool is_npy(std::string_view bytes);
 
 /// What the header says of an array of walls that is as long as its file.

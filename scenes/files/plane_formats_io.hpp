@@ -1,21 +1,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Worlds of the plane as other programs have them: GeoJSON, well-known text, lists of rings, micromouse mazes, Moving
-// AI's maps and scenarios. What is taken of each is said where it is read: geojson_io.cpp, wkt_io.cpp,
-// ring_lists_io.cpp, micromouse_io.cpp, moving_ai_io.cpp. All that read throw InputError naming file and line, and
-// Stopped; all that write throw InputError for what the format can't hold, WriteError, Stopped.
+// Worlds as files of text hold them: the program's own scenes, and as other programs have them: GeoJSON, well-known
+// text, lists of rings, micromouse mazes, Moving AI's maps and scenarios, maps of map_server. What is taken of each is
+// said where it is read: scene_io.cpp, geojson_io.cpp, wkt_io.cpp, ring_lists_io.cpp, micromouse_io.cpp,
+// moving_ai_io.cpp, ros_map_io.cpp. All that read throw InputError naming file and line, and Stopped; all that write
+// throw InputError for what the format can't hold, WriteError, Stopped.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/run/execution.hpp"
 #include "scenes/scene/occupancy_map.hpp"
+#include "scenes/scene/prices.hpp"
 #include "scenes/scene/scene.hpp"
 #include "scenes/text/input_file_io.hpp"
 
 namespace warren {
+
+Scene read_scene_text(const InputFile& file, const Execution& execution);
+using SceneTextSink = std::function<void(std::string_view)>;
+/// Hands everything that the scene holds to `write`, piece by piece.
+void write_scene_text(const Scene& scene, const SceneTextSink& write, const Execution& execution);
+/// Writes everything that the scene holds.
+void write_scene_text(const Scene& scene, const std::string& path, const Execution& execution);
 
 /// Does it begin as JSON does that is no answer of ours: with an array, or an object that has a "type"?
 bool is_geojson(std::string_view bytes);
@@ -67,5 +78,34 @@ Cell cell_of(const OccupancyMap& map, const Scenario& scenario, Cell from, const
 /// The cells that a robot at `start` may be on: water from water, else everything passable on land; a set bit is
 /// blocked.
 Bitmap blocked_from(const OccupancyMap& map, Cell start);
+
+/// nav2: p >= occupied_thresh is occupied, p <= free_thresh free, a transparent pixel unknown. ros1: strictly beyond
+/// the thresholds; in trinary mode alpha counts as one more colour, in scale mode a fully transparent pixel is unknown.
+enum class MapServerRules : std::uint8_t { nav2, ros1 };
+constexpr auto enum_names(MapServerRules) { return std::array<std::string_view, 2>{"nav2", "ros1"}; }
+
+/// Reads the YAML and its image (absolute, ~/…, or relative to the YAML file). Throws InputError naming file and line,
+/// ReadError naming the image and who asks for it, Stopped.
+OccupancyMap read_ros_map(const InputFile& yaml, const Execution& execution,
+                          MapServerRules rules = MapServerRules::nav2);
+
+/// The same files as a mask: the values that a map server of Nav2 publishes. Throws as read_ros_map.
+MaskCells read_mask(const InputFile& yaml, const Execution& execution);
+
+/// NAME.pgm, the image that write_ros_map writes beside NAME.yaml.
+std::string map_image_of(const std::string& yaml);
+
+/// Writes NAME.yaml and, beside it, NAME.pgm: the YAML only where its image is whole. Throws as OutputFile does.
+void write_ros_map(const OccupancyMap& map, const std::string& path, const Execution& execution);
+
+/// Reads the masks that nobody has read yet. What `keep-out` names may be a GeoJSON or scene, too: its polygons become
+/// keep_out or, with a factor, areas, and it is no mask more. Throws ReadError, InputError naming file and line,
+/// Stopped.
+void read_masks(Prices& prices, const Execution& execution);
+
+/// `name` as a file that stands in `file` means it: absolute, ~/…, or beside that.
+std::string path_beside(const std::string& file, const std::string& name);
+/// What `path` is called in a file that is written to `file`; read back by path_beside.
+std::string name_beside(const std::string& file, const std::string& path);
 
 }  // namespace warren

@@ -41,9 +41,16 @@ void png_fail(png_structp png, png_const_charp why) {
 }
 void png_warn(png_structp, png_const_charp) {}
 
-/// Header and transformations; what is left are 8 or 16 bits a sample, 1 to 4 channels. False when libpng gave up.
-bool begin(png_structp png, png_infop info, PngInput& input, ImageHeader& header) {
+/// False when libpng gave up.
+template <class Call>
+bool succeeds(png_structp png, const Call& call) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
+  call();
+  return true;
+}
+
+/// Header and transformations; what is left are 8 or 16 bits a sample, 1 to 4 channels.
+void begin(png_structp png, png_infop info, PngInput& input, ImageHeader& header) {
   png_set_read_fn(png, &input, png_take);
   png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);  // texts, profiles, times: none is looked at
   png_read_info(png, info);
@@ -54,19 +61,6 @@ bool begin(png_structp png, png_infop info, PngInput& input, ImageHeader& header
   header.height = png_get_image_height(png, info);
   header.channels = png_get_channels(png, info);
   header.maximum = png_get_bit_depth(png, info) == 16 ? 65535 : 255;
-  return true;
-}
-
-bool next_row(png_structp png, png_bytep to) {
-  if (setjmp(png_jmpbuf(png)) != 0) return false;
-  png_read_row(png, to, nullptr);
-  return true;
-}
-
-bool end(png_structp png) {
-  if (setjmp(png_jmpbuf(png)) != 0) return false;
-  png_read_end(png, nullptr);
-  return true;
 }
 
 void widen(const ImageHeader& header, std::size_t count, PngInput& input) {
@@ -126,9 +120,8 @@ void png_write(png_structp png, png_bytep bytes, png_size_t size) {
 void png_flush(png_structp) {}
 void give_up(png_structp png, png_const_charp) { png_longjmp(png, 1); }
 
-/// False when libpng gave up; rows are written while `sink` takes them.
-bool encode(png_structp png, png_infop info, const PngRows& rows, PngSink& sink, const Execution& execution) {
-  if (setjmp(png_jmpbuf(png)) != 0) return false;
+/// Rows are written while `sink` takes them.
+void encode(png_structp png, png_infop info, const PngRows& rows, PngSink& sink, const Execution& execution) {
   png_set_write_fn(png, &sink, png_write, png_flush);
   png_set_compression_level(png, rows.compression);
   png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
@@ -152,11 +145,10 @@ bool encode(png_structp png, png_infop info, const PngRows& rows, PngSink& sink,
   }
   png_write_info(png, info);
   for (std::size_t y = 0; y < rows.height; ++y) {
-    if (execution.should_stop()) return true;
+    if (execution.should_stop()) return;
     png_write_row(png, rows.row(y));
   }
   png_write_end(png, info);
-  return true;
 }
 
 }  // namespace
@@ -169,7 +161,7 @@ void read_png(const InputFile& file, const ImageSink& sink, const Execution& exe
   };
   const PngReader reader(input);
   ImageHeader header;
-  if (!begin(reader.png(), reader.info(), input, header)) fail();
+  if (!succeeds(reader.png(), [&] { begin(reader.png(), reader.info(), input, header); })) fail();
   check_map_size(file.name(), header.width, header.height);
   check_pixels_are_there(file, header, input.bits_a_pixel);
   sink.begin(header);
@@ -184,7 +176,7 @@ void read_png(const InputFile& file, const ImageSink& sink, const Execution& exe
     if (cols == 0) continue;
     for (std::uint32_t r = 0; r < rows; ++r) {
       execution.check();
-      if (!next_row(reader.png(), input.bytes.data())) fail();
+      if (!succeeds(reader.png(), [&] { png_read_row(reader.png(), input.bytes.data(), nullptr); })) fail();
       const std::size_t count = std::size_t{cols} * header.channels;
       widen(header, count, input);
       const std::span<const std::uint16_t> samples(input.samples.data(), count);
@@ -197,7 +189,7 @@ void read_png(const InputFile& file, const ImageSink& sink, const Execution& exe
       sink.row({y, first_x, std::uint32_t{1} << PNG_PASS_COL_SHIFT(pass), samples});
     }
   }
-  if (!end(reader.png())) fail();
+  if (!succeeds(reader.png(), [&] { png_read_end(reader.png(), nullptr); })) fail();
 }
 
 void write_png(const PngRows& rows, const Execution& execution, const std::function<void(std::string_view)>& write) {
@@ -208,7 +200,7 @@ void write_png(const PngRows& rows, const Execution& execution, const std::funct
     png_destroy_write_struct(&png, nullptr);
     throw std::bad_alloc();
   }
-  const bool done = encode(png, info, rows, sink, execution);
+  const bool done = succeeds(png, [&] { encode(png, info, rows, sink, execution); });
   png_destroy_write_struct(&png, &info);
   if (sink.error) std::rethrow_exception(sink.error);
   execution.check();

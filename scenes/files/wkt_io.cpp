@@ -134,7 +134,11 @@ class WktReader {
   Scene read() {
     while (!tokens_.done()) {
       if (tokens_.take(';')) continue;
-      read_srid();
+      if (tokens_.take_word("SRID")) {
+        tokens_.expect('=');
+        tokens_.number();
+        tokens_.expect(';');
+      }
       geometry(0);
     }
     scene_.walls = walls_.take();
@@ -145,13 +149,6 @@ class WktReader {
   }
 
  private:
-  void read_srid() {
-    if (!tokens_.take_word("SRID")) return;
-    tokens_.expect('=');
-    tokens_.number();
-    tokens_.expect(';');
-  }
-
   void geometry(int depth) {
     constexpr int deepest = 64;
     if (depth > deepest) tokens_.fail("geometry collections that are nested less deeply");

@@ -21,6 +21,7 @@
 #include "core/search/union_find.hpp"
 #include "parallel/asked_memory.hpp"
 #include "parallel/chunks.hpp"
+#include "parallel/sort.hpp"
 #include "scenes/mazes/spanning_maze.hpp"
 
 namespace warren::maze {
@@ -215,13 +216,6 @@ void carve_wilson(MazeCells& cells, std::uint64_t seed, const Execution& executi
   }
 }
 
-__extension__ using Wide = unsigned __int128;
-
-/// A number in [0, n); there may be more than 2^32 walls.
-std::size_t below(std::size_t n, SequentialRng& rng) {
-  return static_cast<std::size_t>(static_cast<Wide>(rng.next()) * n >> 64);
-}
-
 /// All interior walls: twice the index of the cell that owns the wall, plus 1 for its upper one.
 template <class Id>
 RawVector<Id> wall_numbers(const MazeCells& cells, const Execution& execution) {
@@ -250,7 +244,7 @@ void carve(MazeCells& cells, std::uint64_t seed, const Execution& execution) {
   std::size_t left = walls.size();
   for (std::uint64_t carved = 1; carved < cells.cell_count();) {
     poll.step(carved);
-    const std::size_t drawn = below(left, rng);
+    const std::size_t drawn = rng.below(left);
     const Id wall = walls[drawn];
     walls[drawn] = walls[--left];
     const auto i = static_cast<Id>(wall / 2);
@@ -381,19 +375,10 @@ void open_loops(MazeCells& cells, std::uint64_t count, std::uint64_t standing, s
   }
 }
 
-/// All that are the source's; `filled` is told of each cell.
+/// All that are the source's.
 void fill_cells(const CellWallSource& source, MazeCells& cells, const Execution& execution,
                 Progress* filled = nullptr) {
-  constexpr std::size_t grain = 8;  // a reader's scratch is large
-  for_chunks(source.tile_count(), grain, execution, [&](Range r) {
-    const auto reader = source.reader();
-    CellTile tile;
-    for (std::size_t number = r.first; number < r.last; ++number) {
-      reader->read(number, tile);
-      copy_tile(tile, cells, tile.first_col);
-      if (filled != nullptr) filled->advance(std::uint64_t{tile.width} * tile.height);
-    }
-  });
+  copy_tiles(source, 0, 1, 0, cells, execution, filled);
   cells.bytes()[cells.index(source.cols() - 1, source.rows() - 1)] |=
       MazeCells::right_wall;  // the exit is no cell's business
 }
@@ -437,18 +422,17 @@ std::optional<Piece> piece_of(const Segment& wall, const Box& outline) {
 }
 
 /// In order of sides and places.
-std::vector<Piece> pieces_of(const WallSet& walls, const Box& outline, const Execution& execution) {
+RawVector<Piece> pieces_of(const WallSet& walls, const Box& outline, const Execution& execution) {
   const auto in_chunk = [&](Range r) {
-    std::vector<Piece> found;
+    RawVector<Piece> found;
     for (std::size_t i = r.first; i < r.last; ++i) {
-      if (const auto piece = piece_of(walls.segment(i), outline)) found.push_back(*piece);
+      if (const auto piece = piece_of(walls.segment(i), outline)) push_asked(found, *piece, execution);
     }
     return found;
   };
-  std::vector<Piece> pieces;
-  for (const auto& part : parts_of_chunks(walls.size(), outline_grain, execution, in_chunk))
-    pieces.insert(pieces.end(), part.begin(), part.end());
-  std::sort(pieces.begin(), pieces.end());
+  RawVector<Piece> pieces =
+      joined_parts(parts_of_chunks(walls.size(), outline_grain, execution, in_chunk), execution.quiet());
+  polled_sort(pieces.begin(), pieces.end(), execution);
   return pieces;
 }
 
@@ -503,9 +487,9 @@ MazeCells generate_maze(const MazeOptions& options, const Execution& execution) 
   const std::span<std::uint8_t> bytes = cells.bytes();
   for_each_index(bytes.size(), generator_grain, quiet, [&](std::size_t i) { bytes[i] &= MazeCells::all_walls; });
   if (options.loops > 0.0) {
-    const std::uint64_t standing = interior_walls(cells, quiet);
+    const std::uint64_t standing = (std::uint64_t{options.rows} - 1) * (options.cols - 1);  // in a perfect maze
     const auto count = static_cast<std::uint64_t>(std::round(options.loops * static_cast<double>(standing)));
-    open_loops(cells, std::min(count, standing), standing, options.seed, execution);
+    open_loops(cells, count, standing, options.seed, execution);
   }
   return cells;
 }
@@ -536,6 +520,24 @@ std::optional<MazeHint> maze_of_walls(const WallSet& walls, const Execution& exe
   const std::optional<MazeHint> hint = size_of_box(box);
   if (!hint || !has_outline(walls, box, execution) || first_wall_off_grid(walls, *hint, execution)) return {};
   return hint;
+}
+
+void copy_tiles(const CellWallSource& source, std::size_t first, std::size_t step, std::uint32_t first_col,
+                MazeCells& cells, const Execution& execution, Progress* copied) {
+  constexpr std::size_t grain = 8;  // a reader's scratch is large
+  for_chunks((source.tile_count() - 1 - first) / step + 1, grain, execution, [&](Range r) {
+    const auto reader = source.reader();
+    CellTile tile;
+    for (std::size_t i = r.first; i < r.last; ++i) {
+      reader->read(first + i * step, tile);
+      for (std::uint32_t col = 0; col < tile.width; ++col) {
+        std::uint8_t* const column =
+            cells.bytes().data() + cells.index(tile.first_col - first_col + col, tile.first_row);
+        for (std::uint32_t row = 0; row < tile.height; ++row) column[row] = tile.walls[tile.index(col, row)];
+      }
+      if (copied != nullptr) copied->advance(std::uint64_t{tile.width} * tile.height);
+    }
+  });
 }
 
 MazeCells cells_from(const CellWallSource& source, const Execution& execution) {

@@ -91,9 +91,6 @@ class MazeCells {
   RawVector<std::uint8_t> bits_;
 };
 
-/// The interior walls that stand: rows * cols - rows - cols + 1 in a perfect maze.
-std::uint64_t interior_walls(const MazeCells& cells, const Execution& execution);
-
 /// Throws InputError for sizes and loops out of range, Stopped at the deadline or when memory would pass its limit.
 MazeCells generate_maze(const MazeOptions& options, const Execution& execution);
 
@@ -126,6 +123,9 @@ class WallStrips {
   void write(const std::function<void(std::string_view)>& take, const Execution& execution) const;
 
  private:
+  /// Calls take(span of Wall) for the walls, piece by piece.
+  template <class Wall, class Take>
+  void for_each_piece(const Take& take, const Execution& execution) const;
   /// By row, how far an upper wall goes on right of a strip.
   std::vector<std::uint32_t> beyond(std::size_t strip) const;
 
@@ -181,40 +181,34 @@ class HeldCells : public CellWallSource {
     explicit Reader(const HeldCells& held) : held_(held) {}
     void read(std::size_t number, CellTile& tile) override {
       held_.place(number, tile);
+      const MazeCells& cells = held_.cells_;
       for (std::ptrdiff_t row = -1; row < std::ptrdiff_t{tile.height}; ++row) {
         for (std::ptrdiff_t col = -1; col < std::ptrdiff_t{tile.width}; ++col) {
-          const std::ptrdiff_t at_col = std::ptrdiff_t{tile.first_col} + col;
-          const std::ptrdiff_t at_row = std::ptrdiff_t{tile.first_row} + row;
-          tile.walls[tile.index(col, row)] = walls(at_col, at_row);
+          const std::ptrdiff_t c = std::ptrdiff_t{tile.first_col} + col;
+          const std::ptrdiff_t r = std::ptrdiff_t{tile.first_row} + row;
+          std::uint8_t& walls = tile.walls[tile.index(col, row)];
+          walls = c < 0 ? CellTile::right_wall : CellTile::upper_wall;
+          if (c < 0 || r < 0) continue;
+          walls = cells.bytes()[cells.index(static_cast<std::uint32_t>(c), static_cast<std::uint32_t>(r))];
         }
       }
+      // The outline opens left of the first cell and right of the last.
+      if (number == 0) tile.walls[tile.index(-1, 0)] = 0;
+      if (number + 1 < held_.tile_count()) return;
+      tile.walls[tile.index(tile.width - 1, tile.height - 1)] &= CellTile::upper_wall;
     }
 
    private:
-    /// The outline opens left of the first cell and right of the last.
-    std::uint8_t walls(std::ptrdiff_t col, std::ptrdiff_t row) const {
-      const MazeCells& cells = held_.cells_;
-      if (col < 0) return row == 0 ? 0 : CellTile::right_wall;
-      if (row < 0) return CellTile::upper_wall;
-      const auto c = static_cast<std::uint32_t>(col);
-      const auto r = static_cast<std::uint32_t>(row);
-      const bool is_last = c + 1 == cells.cols() && r + 1 == cells.rows();
-      const bool right = cells.wall_right(c, r) && !is_last;
-      return static_cast<std::uint8_t>((right ? 1 : 0) | (cells.wall_above(c, r) ? 2 : 0));
-    }
     const HeldCells& held_;
   };
 
   MazeCells cells_;
 };
 
-/// Writes a tile's cells into some from column `to_col` on.
-inline void copy_tile(const CellTile& tile, MazeCells& cells, std::uint32_t to_col) {
-  for (std::uint32_t col = 0; col < tile.width; ++col) {
-    std::uint8_t* const column = cells.bytes().data() + cells.index(to_col + col, tile.first_row);
-    for (std::uint32_t row = 0; row < tile.height; ++row) column[row] = tile.walls[tile.index(col, row)];
-  }
-}
+/// Copies the tiles first, first + step, ... of a source into cells whose column 0 is its column `first_col`; `copied`
+/// is told of each cell. Throws Stopped.
+void copy_tiles(const CellWallSource& source, std::size_t first, std::size_t step, std::uint32_t first_col,
+                MazeCells& cells, const Execution& execution, Progress* copied = nullptr);
 
 /// All cells of a source. Throws InputError for 2^32 cells and more, Stopped.
 MazeCells cells_from(const CellWallSource& source, const Execution& execution);

@@ -13,6 +13,7 @@
 #include <type_traits>
 
 #include "core/base/error.hpp"
+#include "core/base/page_pool.hpp"
 #include "parallel/asked_memory.hpp"
 #include "parallel/chunks.hpp"
 #include "scenes/mazes/maze_generator.hpp"
@@ -63,47 +64,40 @@ void for_runs(const MazeCells& cells, Range r, F&& f) {
 }
 
 /// The interior walls that start at a cell, as bits of MazeCells: in the unit variant the walls that it owns.
-class WallStarts {
- public:
-  WallStarts(const MazeCells& cells, bool merged) : WallStarts(cells, merged, {0, cells.cols()}) {}
-  /// Of columns that are a part of a maze, but for its first the left one of them is only looked at.
-  WallStarts(const MazeCells& cells, bool merged, ColumnsOfMaze columns)
-      : cells_(cells), bytes_(cells.bytes().data()), columns_(columns), merged_(merged) {}
+struct WallStarts {
+  const MazeCells& cells;
+  bool merged;
+  ColumnsOfMaze columns{0, cells.cols()};  // where more lie to their left, the first of them is only looked at
 
   /// Which bits of this column's cells are interior walls (upper walls of the top row apart).
   unsigned interior_of(std::uint32_t col) const {
-    return columns_.first + col + 1 < columns_.all ? MazeCells::all_walls : MazeCells::upper_wall;
+    return columns.first + col + 1 < columns.all ? MazeCells::all_walls : MazeCells::upper_wall;
   }
   unsigned at(std::uint32_t col, std::uint32_t row) const {
-    const std::size_t i = cells_.index(col, row);
-    unsigned bits = bytes_[i] & interior_of(col);
-    if (row + 1 == cells_.rows()) bits &= ~unsigned{MazeCells::upper_wall};
-    if (!merged_) return bits;
-    if (row > 0) bits &= ~(bytes_[i - 1] & unsigned{MazeCells::right_wall});
-    if (col > 0) bits &= ~(bytes_[i - cells_.stride()] & unsigned{MazeCells::upper_wall});
+    const std::uint8_t* const bytes = cells.bytes().data();
+    const std::size_t i = cells.index(col, row);
+    unsigned bits = bytes[i] & interior_of(col);
+    if (row + 1 == cells.rows()) bits &= ~unsigned{MazeCells::upper_wall};
+    if (!merged) return bits;
+    if (row > 0) bits &= ~(bytes[i - 1] & unsigned{MazeCells::right_wall});
+    if (col > 0) bits &= ~(bytes[i - cells.stride()] & unsigned{MazeCells::upper_wall});
     return bits;
   }
   /// Cells that the right wall of (col, row) runs along, upwards.
   std::uint32_t rows_along(std::uint32_t col, std::uint32_t row) const {
     std::uint32_t top = row + 1;
-    while (merged_ && top < cells_.rows() && cells_.wall_right(col, top)) ++top;
+    while (merged && top < cells.rows() && cells.wall_right(col, top)) ++top;
     return top - row;
   }
   /// Cells that the upper wall of (col, row) runs along, to the right.
   std::uint32_t cols_along(std::uint32_t col, std::uint32_t row) const {
     std::uint32_t right = col + 1;
-    while (merged_ && right < cells_.cols() && cells_.wall_above(right, row)) ++right;
-    const bool goes_on = merged_ && right == cells_.cols() && columns_.beyond != nullptr;
-    return right - col + (goes_on ? columns_.beyond[row] : 0);
+    while (merged && right < cells.cols() && cells.wall_above(right, row)) ++right;
+    const bool goes_on = merged && right == cells.cols() && columns.beyond != nullptr;
+    return right - col + (goes_on ? columns.beyond[row] : 0);
   }
-  /// Of a column in the maze.
-  std::uint32_t col_of(std::uint32_t col) const { return columns_.first + col; }
-  const MazeCells& cells() const { return cells_; }
-  bool merged() const { return merged_; }
   /// Walls that start in a run.
-  std::size_t count(const Run& run) const { return merged_ ? count_merged(run) : count_units(run); }
-
- private:
+  std::size_t count(const Run& run) const { return merged ? count_merged(run) : count_units(run); }
   std::size_t count_merged(const Run& run) const {
     std::size_t n = 0;
     for (std::uint32_t row = run.row_first; row < run.row_last; ++row) {
@@ -113,21 +107,16 @@ class WallStarts {
     return n;
   }
   std::size_t count_units(const Run& run) const {
-    const std::uint8_t* bytes = bytes_ + cells_.index(run.col, 0);
+    const std::uint8_t* const bytes = cells.bytes().data() + cells.index(run.col, 0);
     const unsigned interior = interior_of(run.col);
     std::uint32_t n = 0;  // a run is no longer than the grain
     for (std::uint32_t row = run.row_first; row < run.row_last; ++row) {
       const unsigned bits = bytes[row] & interior;
       n += (bits & 1U) + (bits >> 1U);
     }
-    if (run.row_last == cells_.rows()) n -= bytes[cells_.rows() - 1] >> 1U;  // the outline's
+    if (run.row_last == cells.rows()) n -= bytes[cells.rows() - 1] >> 1U;  // the outline's
     return n;
   }
-
-  const MazeCells& cells_;
-  const std::uint8_t* bytes_;
-  ColumnsOfMaze columns_;
-  bool merged_;
 };
 
 /// Collects the walls of one chunk and hands them on in blocks.
@@ -156,10 +145,10 @@ class WallWriter : NotCopied {
 
 template <class Wall>
 void write_units(const WallStarts& starts, const Run& run, WallWriter<Wall>& writer) {
-  const MazeCells& cells = starts.cells();
+  const MazeCells& cells = starts.cells;
   const std::uint8_t* bytes = cells.bytes().data() + cells.index(run.col, 0);
   const unsigned interior = starts.interior_of(run.col);
-  const std::uint32_t col = starts.col_of(run.col);
+  const std::uint32_t col = starts.columns.first + run.col;
   for (std::uint32_t row = run.row_first; row < run.row_last; ++row) {
     const unsigned bits = bytes[row] & interior & (row + 1 == cells.rows() ? 1U : 3U);
     writer.make_room();
@@ -170,7 +159,7 @@ void write_units(const WallStarts& starts, const Run& run, WallWriter<Wall>& wri
 
 template <class Wall>
 void write_merged(const WallStarts& starts, const Run& run, WallWriter<Wall>& writer) {
-  const std::uint32_t col = starts.col_of(run.col);
+  const std::uint32_t col = starts.columns.first + run.col;
   for (std::uint32_t row = run.row_first; row < run.row_last; ++row) {
     const unsigned bits = starts.at(run.col, row);
     writer.make_room();
@@ -195,7 +184,7 @@ std::vector<std::size_t> places_of(const WallStarts& starts, Range some, std::si
   std::vector<std::size_t> places(chunk_count(some.size(), wall_grain) + 1, 0);
   for_chunks(some.size(), wall_grain, {execution.threads, execution.deadline}, [&](Range r) {
     std::size_t n = 0;
-    for_runs(starts.cells(), {some.first + r.first, some.first + r.last},
+    for_runs(starts.cells, {some.first + r.first, some.first + r.last},
              [&](const Run& run) { n += starts.count(run); });
     places[r.first / wall_grain + 1] = n;
   });
@@ -208,8 +197,8 @@ std::vector<std::size_t> places_of(const WallStarts& starts, Range some, std::si
 template <class Wall>
 void write_chunk(const WallStarts& starts, Range cells, Wall* walls) {
   WallWriter<Wall> writer(walls);
-  for_runs(starts.cells(), cells, [&](const Run& run) {
-    starts.merged() ? write_merged<Wall>(starts, run, writer) : write_units<Wall>(starts, run, writer);
+  for_runs(starts.cells, cells, [&](const Run& run) {
+    starts.merged ? write_merged<Wall>(starts, run, writer) : write_units<Wall>(starts, run, writer);
   });
 }
 
@@ -234,7 +223,7 @@ auto with_wall_type(std::uint32_t rows, std::uint32_t cols, const F& f) {
 
 template <class Wall>
 bool has_walls_as(std::span<const Wall> walls, const MazeCells& cells, const Execution& execution) {
-  const WallStarts starts(cells, false);
+  const WallStarts starts{cells, false};
   const std::vector<std::size_t> places = places_of(starts, {0, cells.cell_count()}, 4, execution);
   const std::array<Wall, 4> frame = outline<Wall>(cells.rows(), cells.cols());
   if (walls.size() != places.back() || !std::equal(frame.begin(), frame.end(), walls.begin())) return false;
@@ -250,7 +239,7 @@ bool has_walls_as(std::span<const Wall> walls, const MazeCells& cells, const Exe
 
 template <class Wall>
 WallSet walls_as(const MazeCells& cells, bool merged, const Execution& execution) {
-  const WallStarts starts(cells, merged);
+  const WallStarts starts{cells, merged};
   const std::vector<std::size_t> places = places_of(starts, {0, cells.cell_count()}, 4, execution);
   const std::array<Wall, 4> frame = outline<Wall>(cells.rows(), cells.cols());
   execution.reserve(places.back() * sizeof(Wall));
@@ -262,11 +251,6 @@ WallSet walls_as(const MazeCells& cells, bool merged, const Execution& execution
 
 constexpr std::size_t rows_grain = std::size_t{1} << 14;
 constexpr std::size_t cells_a_piece = std::size_t{1} << 20;
-
-template <class T>
-std::string_view bytes_of(std::span<const WallOf<T>> walls) {
-  return {reinterpret_cast<const char*>(walls.data()), walls.size_bytes()};  // NOLINT: the walls' bytes
-}
 
 Execution quietly(const Execution& execution) { return {execution.threads, execution.deadline}; }
 
@@ -285,24 +269,14 @@ struct WallStrip {
     return (static_cast<std::uint32_t>(number) << maze.side_log2()) - lead;
   }
   Range own_cells() const { return {std::uint64_t{lead} * cells.rows(), cells.cell_count()}; }
-  void read(const CellWallSource& maze, const Execution& execution) {
-    constexpr std::size_t grain = 8;  // a reader's scratch is large
-    for_chunks(maze.tile_count() / maze.tile_cols(), grain, execution, [&](Range r) {
-      const auto reader = maze.reader();
-      CellTile tile;
-      for (std::size_t row_of_tiles = r.first; row_of_tiles < r.last; ++row_of_tiles) {
-        reader->read(row_of_tiles * maze.tile_cols() + number, tile);
-        copy_tile(tile, cells, lead);
-      }
-    });
-  }
 };
 
 /// Calls visit(strip) for each strip of a maze, from the left.
 template <class Visit>
 void for_each_strip(const CellWallSource& maze, const Execution& execution, const Visit& visit) {
+  const PagePool pages;  // each strip is made of those of the strip before
   WallStrip strip{0, 0, MazeCells(maze.rows(), width_of_strip(maze, 0), execution)};
-  strip.read(maze, execution);
+  copy_tiles(maze, 0, maze.tile_cols(), 0, strip.cells, execution);
   for (;;) {
     visit(strip);
     const std::size_t number = strip.number + 1;
@@ -312,7 +286,7 @@ void for_each_strip(const CellWallSource& maze, const Execution& execution, cons
                                                    .subspan(strip.cells.index(strip.cells.cols() - 1, 0), maze.rows());
     std::copy(last.begin(), last.end(),
               next.cells.bytes().begin() + static_cast<std::ptrdiff_t>(next.cells.index(0, 0)));
-    next.read(maze, execution);
+    copy_tiles(maze, number, maze.tile_cols(), next.first_col(maze), next.cells, execution);
     strip = std::move(next);
   }
 }
@@ -326,20 +300,6 @@ void note_runs(const WallStrip& strip, std::span<std::uint16_t> runs, const Exec
   });
 }
 
-template <class T>
-void write_strip(const WallStarts& starts, Range own, const std::function<void(std::string_view)>& take,
-                 const Execution& execution) {
-  RawVector<WallOf<T>> walls;
-  for (std::uint64_t first = own.first; first < own.last; first += cells_a_piece) {
-    const Range some{first, std::min(first + cells_a_piece, own.last)};
-    const std::vector<std::size_t> places = places_of(starts, some, 0, execution);
-    if (places.back() > walls.capacity()) execution.reserve(places.back() * sizeof(WallOf<T>));
-    walls.resize(places.back());
-    write_walls(starts, some, places, walls.data(), quietly(execution));
-    take(bytes_of<T>(walls));
-  }
-}
-
 constexpr std::size_t flood_grain = std::size_t{1} << 16;
 constexpr std::int64_t units_per_look = std::int64_t{1} << 16;
 
@@ -347,8 +307,9 @@ constexpr std::int64_t units_per_look = std::int64_t{1} << 16;
 /// lanes at once: adding and taking away 2^23 (2^52) rounds k to a whole number. Differences from that, and products of
 /// a wall's two extents, are summed and stay zero; a NaN stays in the sums. k itself is exact wherever it passes, for a
 /// float too as long as there are less than 2^23 lines.
-template <class T>
-bool all_on_grid(std::span<const WallOf<T>> walls, MazeHint hint) {
+template <class Wall>
+bool all_on_grid(std::span<const Wall> walls, MazeHint hint) {
+  using T = typename Wall::Number;
   using Lanes = Eigen::Array<T, 4, 1>;
   constexpr T whole = static_cast<T>(std::uint64_t{1} << (std::numeric_limits<T>::digits - 1));
   const Lanes last(static_cast<T>(hint.cols), static_cast<T>(hint.rows), static_cast<T>(hint.cols),
@@ -356,7 +317,8 @@ bool all_on_grid(std::span<const WallOf<T>> walls, MazeHint hint) {
   Lanes off = Lanes::Zero();
   Lanes excess = Lanes::Zero();
   T oblique = 0;
-  for (const WallOf<T>& w : walls) {
+  for (const Wall& held : walls) {
+    const WallOf<T> w = unpacked(held);
     const Lanes k = Lanes(w.x1, w.y1, w.x2, w.y2) - T{0.5};
     off += (((k + whole) - whole) - k).abs();
     excess = excess.max((k - last).max(-k));
@@ -365,34 +327,15 @@ bool all_on_grid(std::span<const WallOf<T>> walls, MazeHint hint) {
   return off.sum() == 0 && oblique == 0 && excess.maxCoeff() <= 0;
 }
 
-bool all_on_grid_exactly(std::span<const FloatWall> walls, MazeHint hint) {
-  constexpr std::uint32_t exact_lines = std::uint32_t{1} << (std::numeric_limits<float>::digits - 1);
+template <class Wall>
+bool all_on_grid_exactly(std::span<const Wall> walls, MazeHint hint) {
+  constexpr std::uint64_t exact_lines = std::uint64_t{1} << (std::numeric_limits<typename Wall::Number>::digits - 1);
   if (std::max(hint.rows, hint.cols) < exact_lines) return all_on_grid(walls, hint);
-  return std::all_of(walls.begin(), walls.end(), [&](const FloatWall& w) {
+  return std::all_of(walls.begin(), walls.end(), [&](const Wall& held) {
+    const auto w = unpacked(held);
     const DoubleWall wide{w.x1, w.y1, w.x2, w.y2};
     return all_on_grid(std::span<const DoubleWall>(&wide, 1), hint);
   });
-}
-bool all_on_grid_exactly(std::span<const DoubleWall> walls, MazeHint hint) { return all_on_grid(walls, hint); }
-/// Packed walls are never oblique.
-bool all_on_grid_exactly(std::span<const PackedWall> walls, MazeHint hint) {
-  constexpr std::int32_t half = PackedWall::per_unit / 2;
-  const auto most = [](std::uint32_t lines) {
-    return static_cast<std::int32_t>(std::min<std::uint32_t>(lines, PackedWall::most / PackedWall::per_unit)) *
-           PackedWall::per_unit;
-  };
-  const std::int32_t last_x = most(hint.cols);
-  const std::int32_t last_y = most(hint.rows);
-  std::int32_t off = 0;
-  std::int32_t beyond = 0;  // below 0: a wall is
-  for (const PackedWall& w : walls) {
-    const auto [x1, y1, x2, y2] = w.ends();
-    const std::int32_t lines[] = {x1 - half, y1 - half, x2 - half, y2 - half};
-    off |= (lines[0] | lines[1] | lines[2] | lines[3]) & (PackedWall::per_unit - 1);
-    beyond |= lines[0] | lines[1] | lines[2] | lines[3];
-    beyond |= (last_x - lines[0]) | (last_y - lines[1]) | (last_x - lines[2]) | (last_y - lines[3]);
-  }
-  return off == 0 && beyond >= 0;
 }
 
 /// A wall in grid lines, lower ends first.
@@ -400,19 +343,12 @@ struct GridWall {
   std::int64_t x1, y1, x2, y2;
 };
 
-GridWall grid_wall(std::int64_t x1, std::int64_t y1, std::int64_t x2, std::int64_t y2) {
-  return {std::min(x1, x2), std::min(y1, y2), std::max(x1, x2), std::max(y1, y2)};
-}
 /// Of a wall that lies on the grid.
 template <class T>
 GridWall grid_wall(const WallOf<T>& w) {
   const auto line = [](T x) { return static_cast<std::int64_t>(x - T{0.5}); };
-  return grid_wall(line(w.x1), line(w.y1), line(w.x2), line(w.y2));
-}
-GridWall grid_wall(const PackedWall& w) {
-  const PackedWall::Ends e = w.ends();
-  const auto line = [](std::int32_t steps) { return (steps - PackedWall::per_unit / 2) / PackedWall::per_unit; };
-  return grid_wall(line(e.x1), line(e.y1), line(e.x2), line(e.y2));
+  return {line(std::min(w.x1, w.x2)), line(std::min(w.y1, w.y2)), line(std::max(w.x1, w.x2)),
+          line(std::max(w.y1, w.y2))};
 }
 
 /// Sets the bits of the cells along a wall; walls on the outline are no cells' business. Returns how many.
@@ -443,10 +379,6 @@ void open_all(MazeCells& cells, const Execution& execution) {
 
 }  // namespace
 
-std::uint64_t interior_walls(const MazeCells& cells, const Execution& execution) {
-  return places_of(WallStarts(cells, false), {0, cells.cell_count()}, 0, execution).back();
-}
-
 std::size_t maze_wall_bytes(std::uint32_t rows, std::uint32_t cols) {
   return with_wall_type(rows, cols, []<class Wall>(Wall) { return sizeof(Wall); });
 }
@@ -474,7 +406,7 @@ WallStrips::WallStrips(const CellWallSource& cells, bool merged, const Execution
   }
   if (execution.progress != nullptr) execution.progress->begin("walls", cells.tile_count());
   for_each_strip(cells, execution, [&](const WallStrip& strip) {
-    const WallStarts starts(strip.cells, merged, {strip.first_col(cells), cells.cols()});
+    const WallStarts starts{strip.cells, merged, {strip.first_col(cells), cells.cols()}};
     count_ = places_of(starts, strip.own_cells(), count_, execution).back();
     if (merged) note_runs(strip, std::span(runs_).subspan(strip.number * cells.rows(), cells.rows()), execution);
   });
@@ -494,19 +426,33 @@ std::vector<std::uint32_t> WallStrips::beyond(std::size_t strip) const {
   return cells;
 }
 
-void WallStrips::write(const std::function<void(std::string_view)>& take, const Execution& execution) const {
+template <class Wall, class Take>
+void WallStrips::for_each_piece(const Take& take, const Execution& execution) const {
   execution.reserve(merged_ ? cells_.rows() * sizeof(std::uint32_t) : 0);
+  const std::array<Wall, 4> frame = outline<Wall>(cells_.rows(), cells_.cols());
+  take(std::span<const Wall>(frame));
+  RawVector<Wall> walls;
+  for_each_strip(cells_, execution, [&](const WallStrip& strip) {
+    const std::vector<std::uint32_t> going_on = beyond(strip.number);
+    const WallStarts starts{strip.cells, merged_, {strip.first_col(cells_), cells_.cols(), going_on.data()}};
+    const Range own = strip.own_cells();
+    for (std::uint64_t first = own.first; first < own.last; first += cells_a_piece) {
+      const Range some{first, std::min(first + cells_a_piece, own.last)};
+      const std::vector<std::size_t> places = places_of(starts, some, 0, execution);
+      if (places.back() > walls.capacity()) execution.reserve(places.back() * sizeof(Wall));
+      walls.resize(places.back());
+      write_walls(starts, some, places, walls.data(), quietly(execution));
+      take(std::span<const Wall>(walls));
+    }
+  });
+}
+
+void WallStrips::write(const std::function<void(std::string_view)>& take, const Execution& execution) const {
   if (execution.progress != nullptr) execution.progress->begin("write", cells_.tile_count());
-  const auto with = [&]<class T>(T) {
-    const auto frame = outline<WallOf<T>>(cells_.rows(), cells_.cols());
-    take(bytes_of<T>(frame));
-    for_each_strip(cells_, execution, [&](const WallStrip& strip) {
-      const std::vector<std::uint32_t> going_on = beyond(strip.number);
-      const WallStarts starts(strip.cells, merged_, {strip.first_col(cells_), cells_.cols(), going_on.data()});
-      write_strip<T>(starts, strip.own_cells(), take, execution);
-    });
+  const auto take_bytes = [&](auto walls) {
+    take({reinterpret_cast<const char*>(walls.data()), walls.size_bytes()});  // NOLINT: the walls' bytes
   };
-  holds_floats() ? with(float{}) : with(double{});
+  holds_floats() ? for_each_piece<FloatWall>(take_bytes, execution) : for_each_piece<DoubleWall>(take_bytes, execution);
 }
 
 std::optional<std::size_t> first_wall_off_grid(const WallSet& walls, MazeHint hint, const Execution& execution) {
@@ -532,7 +478,7 @@ MazeCells cells_of_walls(const WallSet& walls, MazeHint hint, const Execution& e
   walls.visit([&](auto span) {  // serial: neighbours share bytes, and the bytes are what takes the time
     std::int64_t since_look = 0;
     for (const auto& wall : span) {
-      since_look += 1 + raise(grid_wall(wall), hint, cells);
+      since_look += 1 + raise(grid_wall(unpacked(wall)), hint, cells);
       if (since_look < units_per_look) continue;
       execution.check();
       since_look = 0;

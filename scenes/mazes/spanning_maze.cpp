@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <iterator>
 #include <limits>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "core/base/error.hpp"
 #include "core/base/raw_vector.hpp"
 #include "core/search/union_find.hpp"
+#include "parallel/sort.hpp"
 
 namespace warren::maze {
 namespace {
@@ -320,8 +322,8 @@ class Joining {
     whole.at = frame();
     number_vertices(whole.at);
     take_edges();
-    std::sort(edges_.begin(), edges_.end(), [](const Edge& a, const Edge& b) { return a.weight < b.weight; });
-    execution.check();
+    polled_sort(edges_.begin(), edges_.end(), execution,
+                [](const Edge& a, const Edge& b) { return a.weight < b.weight; });
     RawVector<std::uint32_t> regions(first_.back());
     for_each_index<std::uint32_t>(regions.size(), 65536, {1, execution.deadline},
                                   [&](std::uint32_t v) { regions[v] = v; });
@@ -442,6 +444,12 @@ using maze::edge_col, maze::edge_direction, maze::edge_number, maze::edge_row, m
     maze::JoinedParts, maze::RimPart;
 
 constexpr std::uint32_t group_side = 8;  // pieces that are joined at once, along a side
+
+/// SpanningMaze::open_below_.
+std::uint64_t open_below(std::uint32_t rows, std::uint32_t cols, double loops) {
+  check_spanning_maze(rows, cols, loops);
+  return static_cast<std::uint64_t>(std::ceil(loops * 0x1.0p53));
+}
 
 /// Groups of `group_side` parts in a row.
 std::size_t groups_of(std::size_t parts) { return (parts - 1) / group_side + 1; }
@@ -575,7 +583,7 @@ class SpanningMaze::Reader : public CellWallReader {
         if ((place & 1U) == 1 && row_of(place) == last) turn(tile, column_of(place), -1, 1);
       }
     }
-    if (maze_.loops_.any()) open_loops(tile);
+    if (maze_.open_below_ > 0) open_loops(tile);
     if (number == 0) turn(tile, -1, 0, 0);
     if (number + 1 == maze_.tile_count())
       turn(tile, std::ptrdiff_t{tile.width} - 1, std::ptrdiff_t{tile.height} - 1, 0);
@@ -615,7 +623,7 @@ class SpanningMaze::Reader : public CellWallReader {
     if ((tile.walls[tile.index(col, row)] >> direction & 1U) == 0) return;
     const std::uint64_t number =
         edge_number(static_cast<std::uint64_t>(maze_col), static_cast<std::uint64_t>(maze_row), direction);
-    if (maze_.loops_(weights_(number))) turn(tile, col, row, direction);
+    if (mix64(~weights_(number)) >> 11 < maze_.open_below_) turn(tile, col, row, direction);
   }
 
   const SpanningMaze& maze_;
@@ -625,16 +633,14 @@ class SpanningMaze::Reader : public CellWallReader {
 
 SpanningMaze::SpanningMaze(std::uint32_t rows, std::uint32_t cols, std::uint64_t seed, double loops,
                            const Execution& execution, unsigned side_log2, KeptParts* kept)
-    : CellWallSource(rows, cols, side_log2), seed_(seed), loops_(loops) {
-  check_spanning_maze(rows, cols, loops);
+    : CellWallSource(rows, cols, side_log2), seed_(seed), open_below_(open_below(rows, cols, loops)) {
   const std::size_t tile_rows = tile_count() / tile_cols();
   Builder(*this, {0, tile_rows}, kept, execution).run(tile_rows);
 }
 
 SpanningMaze::SpanningMaze(std::uint32_t rows, std::uint32_t cols, std::uint64_t seed, double loops, Range own,
                            RimPart& rim, const Execution& execution, unsigned side_log2)
-    : CellWallSource(rows, cols, side_log2), seed_(seed), loops_(loops) {
-  check_spanning_maze(rows, cols, loops);
+    : CellWallSource(rows, cols, side_log2), seed_(seed), open_below_(open_below(rows, cols, loops)) {
   rim = Builder(*this, own, nullptr, execution).run(own.last - own.first);
 }
 

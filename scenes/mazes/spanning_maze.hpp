@@ -24,7 +24,6 @@
 // of CPU a cell to make a tile again.
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -57,19 +56,6 @@ class EdgeWeights {
  private:
   static constexpr std::uint64_t golden = 0x9e3779b97f4a7c15U;
   std::uint64_t begin_;
-};
-
-/// Which of the walls that the tree leaves are taken out: each by itself, with probability `loops`, 0 to 1; of another
-/// number, which check_spanning_maze() refuses, none.
-class LoopDraw {
- public:
-  explicit LoopDraw(double loops)
-      : least_kept_(loops >= 0.0 && loops <= 1.0 ? static_cast<std::uint64_t>(std::ceil(loops * 0x1.0p53)) : 0) {}
-  bool any() const { return least_kept_ > 0; }
-  bool operator()(std::uint64_t weight) const { return mix64(~weight) >> 11 < least_kept_; }
-
- private:
-  std::uint64_t least_kept_;
 };
 
 /// A rectangle of cells, and on which sides (bits: 1 right, 2 above, 4 left, 8 below) the maze goes on. The cells of
@@ -161,7 +147,8 @@ class SpanningMaze : public CellWallSource {
   maze::GridPiece piece(std::size_t tile) const;
 
   std::uint64_t seed_;
-  maze::LoopDraw loops_;
+  /// Walls that the tree leaves are taken out, each by itself, where 53 bits that follow from its weight are below.
+  std::uint64_t open_below_;
   /// By tile, the edges in which the whole differs from the tile's tree: those inside it that are not in the whole, and
   /// those that leave it to the right or above and are. 2 * (row * 256 + col) + direction.
   std::vector<std::vector<std::uint32_t>> turned_;

@@ -41,7 +41,7 @@ struct Solid {
   std::vector<Vec3> corners = {};                        ///< hull: at least one, in its own frame, each on the outside
   std::vector<std::array<std::uint32_t, 3>> faces = {};  ///< hull: triangles of corners, counter-clockwise from outside
   std::string name = {};                                 ///< in messages; may be empty
-  /// The numbers of its line in a scene (scenes/arms/solid_text.hpp), so that it is written as it was read; whoever
+  /// The numbers of its line in a scene (scenes/arms/solid_text.cpp), so that it is written as it was read; whoever
   /// changes the members above clears them. Empty: none are known.
   std::vector<double> given = {};
 };

@@ -3,10 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <bit>
-
 #include "core/base/error.hpp"
-#include "core/base/rng.hpp"
 #include "core/plane/se2.hpp"
 
 namespace warren {
@@ -39,17 +36,6 @@ std::optional<Cell> cell_at(const OccupancyMap& map, Vec2 in_world) {
   const Vec2 p = map_point(map, in_world);
   if (!(p.x >= 0.0 && p.y >= 0.0 && p.x < map.width() && p.y < map.height())) return std::nullopt;
   return Cell{static_cast<std::uint32_t>(p.x), static_cast<std::uint32_t>(p.y)};
-}
-
-std::string map_hash(const OccupancyMap& map) {
-  std::uint64_t hash = mix64(map.blocked.size() ^ (std::uint64_t{map.width()} << 32));
-  const auto add = [&](std::uint64_t word) { hash = mix64(hash * 0x9e3779b97f4a7c15U + word); };
-  for (const std::uint64_t word : map.blocked.words()) add(word);
-  for (const std::uint64_t word : map.water.words()) add(word);
-  for (const double number : {map.cell, map.origin.x, map.origin.y, map.yaw_rad}) {
-    add(std::bit_cast<std::uint64_t>(number + 0.0));
-  }
-  return fmt::format("{:016x}", hash);
 }
 
 Bitmap cell_bitmap(std::uint32_t width, std::uint32_t height, const Execution& execution) {

@@ -54,9 +54,6 @@ Box world_box(const OccupancyMap& map);
 /// The cell that holds a point (on a border: the upper or right one); nothing outside of the map.
 std::optional<Cell> cell_at(const OccupancyMap& map, Vec2 in_world);
 
-/// A 64-bit hash of blocked and water cells and of the map's place, as 16 hex digits.
-std::string map_hash(const OccupancyMap& map);
-
 /// All cells clear. Throws Stopped where the memory lacks, or while it is filled.
 Bitmap cell_bitmap(std::uint32_t width, std::uint32_t height, const Execution& execution);
 

@@ -12,6 +12,7 @@
 #include "core/plane/geometry.hpp"
 #include "parallel/asked_memory.hpp"
 #include "parallel/chunks.hpp"
+#include "parallel/sort.hpp"
 
 namespace warren {
 namespace {
@@ -95,8 +96,8 @@ class RingSweep {
   std::optional<SideContact> run(const Visit& visit) {
     std::vector<std::uint32_t> corners(rings_.size());
     for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = static_cast<std::uint32_t>(i);
-    std::sort(corners.begin(), corners.end(),
-              [&](std::uint32_t i, std::uint32_t j) { return is_before(rings_.corner(i), rings_.corner(j)); });
+    polled_sort(corners.begin(), corners.end(), execution_,
+                [&](std::uint32_t i, std::uint32_t j) { return is_before(rings_.corner(i), rings_.corner(j)); });
     std::size_t end = 0;
     std::size_t places = 0;
     for (std::size_t k = 0; k < corners.size(); k = end) {
@@ -374,13 +375,14 @@ class HoleCutter {
 };
 
 /// The sides that two of the pieces have, in opposite directions.
-std::vector<Segment> shared_sides(std::span<const std::vector<Vec2>> pieces) {
+std::vector<Segment> shared_sides(std::span<const std::vector<Vec2>> pieces, const Execution& execution) {
   std::vector<Segment> sides;
   for (const std::vector<Vec2>& piece : pieces) {
     for_each_side(piece, [&](Vec2 a, Vec2 b) { sides.push_back(is_before(a, b) ? Segment{a, b} : Segment{b, a}); });
   }
-  std::sort(sides.begin(), sides.end(),
-            [](const Segment& s, const Segment& t) { return s.a == t.a ? is_before(s.b, t.b) : is_before(s.a, t.a); });
+  polled_sort(sides.begin(), sides.end(), execution, [](const Segment& s, const Segment& t) {
+    return s.a == t.a ? is_before(s.b, t.b) : is_before(s.a, t.a);
+  });
   std::vector<Segment> shared;
   for (std::size_t i = 1; i < sides.size(); ++i) {
     if (sides[i] == sides[i - 1]) shared.push_back(sides[i]);
@@ -471,7 +473,7 @@ void add_without_holes(Scene& scene, std::size_t line, std::vector<Vec2> outer,
                      "a hole must have an area, lie inside its polygon and meet its outline and other holes in single "
                      "points at most");
   }
-  const std::vector<Segment> seams = shared_sides(pieces);
+  const std::vector<Segment> seams = shared_sides(pieces, execution);
   scene.seams.insert(scene.seams.end(), seams.begin(), seams.end());
   for (std::vector<Vec2>& piece : pieces) scene.polygons.push_back({std::move(piece), line});
 }

@@ -12,6 +12,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -72,10 +73,13 @@ struct Prices {
   std::vector<PricedArea> areas = {};            ///< the greatest factor counts where several lie
   std::vector<PriceMask> masks = {};             ///< the same
   std::vector<KeepOut> keep_out = {};            ///< whose open insides nothing may touch
-  std::optional<double> unknown = {};            ///< factor of unknown cells, 1 .. largest_price; none: blocked
+  /// Factor of unknown cells, 1 .. largest_price; infinite: blocked, whatever is said elsewhere; none: blocked.
+  std::optional<double> unknown = {};
 
   /// Is anything said?
-  bool empty() const { return !clearance && areas.empty() && masks.empty() && keep_out.empty() && !unknown; }
+  bool empty() const { return !clearance && areas.empty() && masks.empty() && keep_out.empty() && !opens_unknown(); }
+  /// May a path lead over unknown cells?
+  bool opens_unknown() const { return unknown && *unknown != std::numeric_limits<double>::infinity(); }
 };
 
 /// What a path costs beyond its length, part by part; all in the world's unit, >= 0.

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <iterator>
 #include <set>
 
@@ -33,17 +34,6 @@ class Hasher {
   std::uint64_t state_;
 };
 
-/// Of the walls, chunk by chunk.
-Hasher hasher_of(const WallSet& set, const Execution& execution) {
-  Hasher hasher(set.size());
-  set.visit([&](auto walls) {
-    const auto hash_of_chunk = [&](Range r) { return WallsHash::of_chunk(walls.subspan(r.first, r.size())); };
-    for (const std::uint64_t part : parts_of_chunks(walls.size(), WallsHash::grain, execution, hash_of_chunk))
-      hasher.add(part);
-  });
-  return hasher;
-}
-
 /// The numbers that shape it: those of its pose, of its size, and its corners.
 void add_solid(Hasher& hasher, const Solid& solid) {
   hasher.add(std::uint64_t{static_cast<std::uint8_t>(solid.kind)});
@@ -60,30 +50,20 @@ void add_word(Hasher& hasher, std::string_view word) {
   for (const char letter : word) hasher.add(std::uint64_t{static_cast<unsigned char>(letter)});
 }
 
-/// hasher: has the walls.
-std::string hash_with(Hasher hasher, const Scene& scene) {
-  hasher.add(std::uint64_t{scene.polygons.size()});
-  for (const ScenePolygon& polygon : scene.polygons) {
-    hasher.add(std::uint64_t{polygon.corners.size()});
-    for (const Vec2 corner : polygon.corners) hasher.add_each(std::array{corner.x, corner.y});
+/// Of blocked and water cells and of the map's place.
+std::string map_hash(const OccupancyMap& map, const Execution& execution) {
+  std::uint64_t hash = mix64(map.blocked.size() ^ (std::uint64_t{map.width()} << 32));
+  std::uint64_t words = 0;
+  const auto add = [&](std::uint64_t word) {
+    execution.poll(words++);
+    hash = mix64(hash * 0x9e3779b97f4a7c15U + word);
+  };
+  for (const std::uint64_t word : map.blocked.words()) add(word);
+  for (const std::uint64_t word : map.water.words()) add(word);
+  for (const double number : {map.cell, map.origin.x, map.origin.y, map.yaw_rad}) {
+    add(std::bit_cast<std::uint64_t>(number + 0.0));
   }
-  hasher.add(std::uint64_t{scene.spheres.size()});
-  for (const Sphere& s : scene.spheres) hasher.add_each(std::array{s.x, s.y, s.z, s.radius});
-  for (const SolidBox& box : scene.boxes) {  // nothing where there are none: worlds keep the hash they have
-    hasher.add_each(box.low);
-    hasher.add_each(box.high);
-  }
-  for (const Solid& solid : scene.solids) add_solid(hasher, solid);
-  if (scene.arm) {  // what it carries; what else a world says of an arm, its robot's words say, too
-    for (const AttachedSolid& attached : scene.arm->attached) {
-      add_word(hasher, attached.link);
-      for (const std::string& link : attached.may_touch) add_word(hasher, link);
-      add_solid(hasher, attached.solid);
-    }
-  }
-  hasher.add(std::uint64_t{scene.bounds.has_value()});
-  if (const auto& box = scene.bounds) hasher.add_each(std::array{box->min.x, box->min.y, box->max.x, box->max.y});
-  return fmt::format("{:016x}", hasher.value());
+  return fmt::format("{:016x}", hash);
 }
 
 std::string outline_words(const RobotSpec& robot) {
@@ -191,12 +171,70 @@ std::string unmade_hash(const Scene& scene) {
 
 std::string scene_hash(const Scene& scene, const Execution& execution) {
   if (is_unmade(scene)) return unmade_hash(scene);
-  if (scene.map) return map_hash(*scene.map);
-  return hash_with(hasher_of(scene.walls, execution), scene);
+  if (scene.map) return map_hash(*scene.map, execution);
+  WallsHash hash(scene.walls.size());
+  scene.walls.visit([&](auto walls) { hash.add(walls, execution); });
+  return hash.text(scene);
 }
 
-void WallsHash::add(std::uint64_t chunk) { state_ = folded_words(state_ ^ fold_secret_a, chunk ^ fold_secret_b); }
-std::string WallsHash::text() const { return hash_with(Hasher(state_), {}); }
+template <class Wall>
+void WallsChunk::add(std::span<const Wall> more) {
+  WallFold all = fold;  // in registers
+  for (const Wall& wall : more) all.add(wall.segment());
+  fold = all;
+  walls += more.size();
+}
+
+template <class Wall>
+void WallsHash::add(std::span<const Wall> walls, const Execution& execution) {
+  execution.check();
+  if (open_.walls > 0) {
+    const std::span<const Wall> more = walls.first(std::min(walls.size(), grain - open_.walls));
+    walls = walls.subspan(more.size());
+    open_.add(more);
+    if (open_.walls < grain) return;
+    add(std::exchange(open_, WallsChunk{}).value());
+  }
+  const std::size_t whole = walls.size() / grain * grain;
+  const auto chunk_of = [&](Range r) {
+    WallsChunk chunk;
+    chunk.add(walls.subspan(r.first, r.size()));
+    return chunk;
+  };
+  for (const WallsChunk& chunk : parts_of_chunks(whole, grain, execution, chunk_of)) add(chunk.value());
+  open_.add(walls.subspan(whole));
+}
+
+template void WallsHash::add(std::span<const PackedWall>, const Execution&);
+template void WallsHash::add(std::span<const FloatWall>, const Execution&);
+template void WallsHash::add(std::span<const DoubleWall>, const Execution&);
+
+std::string WallsHash::text(const Scene& beside) const {
+  Hasher hasher(state_);
+  if (open_.walls > 0) hasher.add(open_.value());
+  hasher.add(std::uint64_t{beside.polygons.size()});
+  for (const ScenePolygon& polygon : beside.polygons) {
+    hasher.add(std::uint64_t{polygon.corners.size()});
+    for (const Vec2 corner : polygon.corners) hasher.add_each(std::array{corner.x, corner.y});
+  }
+  hasher.add(std::uint64_t{beside.spheres.size()});
+  for (const Sphere& s : beside.spheres) hasher.add_each(std::array{s.x, s.y, s.z, s.radius});
+  for (const SolidBox& box : beside.boxes) {  // nothing where there are none: worlds keep the hash they have
+    hasher.add_each(box.low);
+    hasher.add_each(box.high);
+  }
+  for (const Solid& solid : beside.solids) add_solid(hasher, solid);
+  if (beside.arm) {  // what it carries; what else a world says of an arm, its robot's words say, too
+    for (const AttachedSolid& attached : beside.arm->attached) {
+      add_word(hasher, attached.link);
+      for (const std::string& link : attached.may_touch) add_word(hasher, link);
+      add_solid(hasher, attached.solid);
+    }
+  }
+  hasher.add(std::uint64_t{beside.bounds.has_value()});
+  if (const auto& box = beside.bounds) hasher.add_each(std::array{box->min.x, box->min.y, box->max.x, box->max.y});
+  return fmt::format("{:016x}", hasher.value());
+}
 
 Scene without_arrays(const Scene& scene) {
   Scene rest;

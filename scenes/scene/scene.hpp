@@ -223,26 +223,34 @@ class WallFold {
   std::uint64_t second_ = fold_secret_b;
 };
 
-/// scene_hash() of walls alone that nobody holds: chunk after chunk of them.
+/// A chunk as far as it has come.
+struct WallsChunk {
+  WallFold fold;          ///< of the walls so far
+  std::size_t walls = 0;  ///< how many they are
+  /// Those that follow.
+  template <class Wall>
+  void add(std::span<const Wall> more);
+  /// What the chunk adds to the hash.
+  std::uint64_t value() const { return fold.value(walls); }
+};
+
+/// scene_hash() of walls that nobody holds all at once.
 class WallsHash {
  public:
   static constexpr std::size_t grain = std::size_t{1} << 16;  ///< walls of each chunk but the last
   /// walls: how many there are in all.
   explicit WallsHash(std::size_t walls) : state_(walls) {}
-  /// Of `grain` walls that follow each other, the last ones fewer. Any number of threads may ask.
+  /// Those that follow: of PackedWall, FloatWall or DoubleWall. Whole chunks are hashed on all threads. Throws Stopped.
   template <class Wall>
-  static std::uint64_t of_chunk(std::span<const Wall> walls) {
-    WallFold fold;
-    for (const Wall& wall : walls) fold.add(wall.segment());
-    return fold.value(walls.size());
-  }
-  /// Chunks in their order.
-  void add(std::uint64_t chunk);
-  /// After all chunks: as scene_hash().
-  std::string text() const;
+  void add(std::span<const Wall> walls, const Execution& execution);
+  /// The value of the chunk that follows, for whoever folds all of them.
+  void add(std::uint64_t chunk) { state_ = folded_words(state_ ^ fold_secret_a, chunk ^ fold_secret_b); }
+  /// After all walls: as scene_hash() of a scene that has them, and beside them what `beside` has.
+  std::string text(const Scene& beside = {}) const;
 
  private:
   std::uint64_t state_;
+  WallsChunk open_;
 };
 
 /// A copy without what can be large: walls, seams, cells of a map.

@@ -119,11 +119,6 @@ class JsonBytes {
       if (++at_ == bytes_->next_look_) bytes_->look();
       return *this;
     }
-    Iterator operator++(int) {
-      Iterator before = *this;
-      ++*this;
-      return before;
-    }
     friend bool operator==(const Iterator& a, const Iterator& b) { return a.at_ == b.at_; }
 
    private:

@@ -11,11 +11,11 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <charconv>
 #include <cstdio>
 #include <system_error>
 
 #include "core/base/error.hpp"
+#include "scenes/text/scene_text.hpp"
 
 namespace warren {
 namespace {
@@ -49,21 +49,13 @@ class WithoutSigpipe : NotCopied {
   bool was_pending_ = false;
 };
 
-/// Files that are open already go by these names: replacing what they lead to would not reach whoever reads them.
-bool names_open_file(const std::string& path) {
-  return path.starts_with("/dev/std") || path.starts_with("/dev/fd/") || path.starts_with("/proc/");
-}
-
 /// The descriptor that a path names as one of this process; -1 for other paths.
 int descriptor_named(std::string_view path) {
   if (path == "/dev/stdout") return STDOUT_FILENO;
   if (path == "/dev/stderr") return STDERR_FILENO;
   for (const std::string_view folder : {"/dev/fd/", "/proc/self/fd/"}) {
     if (!path.starts_with(folder)) continue;
-    int number = -1;
-    const char* const end = path.data() + path.size();
-    const auto read = std::from_chars(path.data() + folder.size(), end, number);
-    if (read.ec == std::errc{} && read.ptr == end) return number;
+    if (const auto number = scene_text::number_in_full<int>(path.substr(folder.size()))) return *number;
   }
   return -1;
 }
@@ -91,8 +83,6 @@ bool is_named(int file, const std::string& name) {
          opened.st_ino == named.st_ino;
 }
 
-bool is_locked_by_another(int file) { return ::flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK; }
-
 /// Removes a file that nobody writes any more. Where the file system has no locks nobody can know, and it stays.
 void remove_rest(const std::string& part) {
   const int file = ::open(part.c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
@@ -108,7 +98,9 @@ bool is_standard_output(std::string_view path) { return path == "-" || descripto
 bool is_written_straight(const std::string& path) {
   struct stat status {};
   if (path == "-") return true;
-  return ::stat(path.c_str(), &status) == 0 && (names_open_file(path) || !S_ISREG(status.st_mode));
+  // So are files called that are open already: replacing what they lead to would not reach whoever reads them.
+  const bool is_open = path.starts_with("/dev/std") || path.starts_with("/dev/fd/") || path.starts_with("/proc/");
+  return ::stat(path.c_str(), &status) == 0 && (is_open || !S_ISREG(status.st_mode));
 }
 
 std::string behind_links(std::string path) {
@@ -187,7 +179,8 @@ bool OutputFile::create(std::string part) {
     temporary_.clear();
     return false;
   }
-  if (!is_locked_by_another(file_) && is_named(file_, temporary_)) return true;
+  const bool another_has_it = ::flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  if (!another_has_it && is_named(file_, temporary_)) return true;
   temporary_.clear();  // between the two another run has taken it for a rest
   discard();
   errno = EEXIST;

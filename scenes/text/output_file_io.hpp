@@ -63,7 +63,6 @@ class FirstOfTwoFiles : NotCopied {
   std::string path_;  // empty: stays
 };
 
-/// Writes a whole file at once.
 void write_file(const std::string& path, std::string_view bytes, const Execution& execution);
 
 /// Long texts, made piece by piece on all cores and written in their order: a file of any size goes through 64 pieces

@@ -81,7 +81,7 @@ std::vector<Vec2> points_of(std::span<const double> numbers, const Execution& ex
 
 std::string_view nearest_word(std::string_view written, std::span<const std::string_view> known) {
   constexpr std::size_t longest_word = 32;
-  if (written.size() > longest_word || known.empty()) return {};
+  if (written.size() > longest_word) return {};
   const auto distance = [&](std::string_view word) { return edit_distance(written, word); };
   const std::string_view best = *std::ranges::min_element(known, {}, distance);
   return distance(best) <= std::max<std::size_t>(2, written.size() / 2) ? best : std::string_view();
@@ -96,7 +96,7 @@ using scene_text::Fields;
 
 /// What the readers of a line's words share: how they refuse it, and its numbers.
 class LineReader {
- protected:
+ public:
   /// usage: what is expected of such a line.
   LineReader(std::string_view usage, Fields& fields, const Execution& execution)
       : usage_(usage), fields_(fields), execution_(execution) {}
@@ -118,12 +118,12 @@ class LineReader {
     return scene_text::points_of(n, execution_);
   }
 
+ protected:
   std::string_view usage_;
   Fields& fields_;
   const Execution& execution_;
 };
 
-/// Reads one body.
 class RobotReader : LineReader {
  public:
   RobotReader(Fields& fields, const Execution& execution)
@@ -165,11 +165,6 @@ class RobotReader : LineReader {
     return value;
   }
 
-  SteeringKind steering() {
-    const std::string_view name = fields_.word();
-    if (const auto kind = enum_named<SteeringKind>(name)) return *kind;
-    refuse_usage(name.empty() ? "no steering" : name);
-  }
   std::vector<Vec2> car_corners() {
     std::vector<Vec2> points;
     while (fields_.number_follows()) {
@@ -196,7 +191,10 @@ class RobotReader : LineReader {
         robot.turning_radius = fields_.number();
         if (!(robot.turning_radius > 0.0)) refuse("turning must be greater than 0", robot.turning_radius);
       } else if (is_car && name == "steering") {
-        robot.steering = steering();
+        const std::string_view which = fields_.word();
+        const auto steering = enum_named<SteeringKind>(which);
+        if (!steering) refuse_usage(which.empty() ? "no steering" : which);
+        robot.steering = *steering;
       } else if (!is_car && name == "tool") {
         robot.tool = not_negative(name, fields_.number());
       } else if (!is_car && name == "self-collision") {
@@ -280,76 +278,6 @@ std::string file_of_word(std::string_view word) {
   return file;
 }
 
-/// Reads one line; as an option it is without its word.
-class PriceReader : LineReader {
- public:
-  PriceReader(const PriceWord& word, Fields& fields, Prices& prices, const Execution& execution)
-      : LineReader(word.usage.substr(is_option(fields) ? word.name.size() + 1 : 0), fields, execution),
-        word_(word),
-        prices_(prices) {}
-
-  void read() {
-    if (word_.name == "clearance-price") {
-      const std::vector<double> n = numbers(1, 2);
-      check(n[0] >= 0.0 && n[0] <= largest_price, fmt::format("P must be from 0 to {}", largest_price), n[0]);
-      if (n.size() == 2) check(n[1] > 0.0, "D must be greater than 0", n[1]);
-      prices_.clearance = {n[0], n.size() == 2 ? std::optional(n[1]) : std::nullopt};
-    } else if (word_.name == "area") {
-      if (!fields_.number_follows()) refuse_usage(fields_.done() ? "nothing" : fields_.word());
-      const double factor = factor_of(fields_.number());
-      push_asked(prices_.areas, {factor, checked_corners(), fields_.place().line}, execution_);
-    } else if (word_.name == "keep-out") {
-      push_asked(prices_.keep_out, {checked_corners(), fields_.place().line}, execution_);
-    } else if (word_.name == "unknown") {
-      prices_.unknown = factor_of(numbers(1, 1)[0]);
-    } else {
-      read_mask();
-    }
-  }
-
- private:
-  void check(bool holds, std::string_view what, double value) const {
-    if (holds) return;
-    fields_.place().fail(is_option(fields_) ? std::string(what) : fmt::format("`{}`: {}", word_.name, what),
-                         fmt::format("{}", value));
-  }
-  double factor_of(double factor) const {
-    check(factor >= 1.0 && factor <= largest_price, fmt::format("F must be from 1 to {}", largest_price), factor);
-    return factor;
-  }
-  std::vector<Vec2> checked_corners() {
-    std::vector<Vec2> points = corners("coordinates");
-    check_body(points, fields_.place().text(), execution_);
-    return points;
-  }
-  void read_mask() {
-    PriceMask mask;
-    mask.file = file_of_word(fields_.word());
-    const std::string_view kind = fields_.word();
-    if (mask.file.empty() || kind.empty()) refuse_usage("too few words");
-    if (kind == "areas") {
-      mask.factor = factor_of(numbers(1, 1)[0]);
-    } else if (kind == "keep-out") {
-      mask.kind = MaskKind::keep_out;
-      if (const std::vector<double> n = numbers(0, 1); !n.empty()) mask.factor = factor_of(n[0]);
-    } else if (kind == "speed") {
-      mask.kind = MaskKind::speed;
-      const std::vector<double> n = numbers(0, 2);
-      if (n.size() == 1) refuse_usage("1 number");
-      if (n.size() == 2) std::tie(mask.base, mask.multiplier) = std::pair(n[0], n[1]);
-      for (const double x : n) check(std::abs(x) <= largest_of_speed, "BASE and MULTIPLIER are at most 1e6", x);
-    } else {
-      refuse_usage(kind);
-    }
-    push_asked(prices_.masks, std::move(mask), execution_);
-  }
-
-  static constexpr double largest_of_speed = 1e6;
-
-  const PriceWord& word_;
-  Prices& prices_;
-};
-
 std::string digits_of(double x) { return fmt::format("{}", x + 0.0); }  // no negative zeros
 
 std::string corners_text(const std::vector<Vec2>& corners) {
@@ -432,7 +360,57 @@ void TextLines::look() {
 }
 
 void read_price(const PriceWord& word, Fields& fields, Prices& prices, const Execution& execution) {
-  PriceReader(word, fields, prices, execution).read();
+  const bool is_option = LineReader::is_option(fields);  // then the line is without its word
+  LineReader line(word.usage.substr(is_option ? word.name.size() + 1 : 0), fields, execution);
+  const auto check = [&](bool holds, std::string_view what, double value) {
+    if (holds) return;
+    fields.place().fail(is_option ? std::string(what) : fmt::format("`{}`: {}", word.name, what),
+                        fmt::format("{}", value));
+  };
+  const auto factor_of = [&](double factor) {
+    check(factor >= 1.0 && factor <= largest_price, fmt::format("F must be from 1 to {}", largest_price), factor);
+    return factor;
+  };
+  const auto checked_corners = [&] {
+    std::vector<Vec2> points = line.corners("coordinates");
+    check_body(points, fields.place().text(), execution);
+    return points;
+  };
+  if (word.name == "clearance-price") {
+    const std::vector<double> n = line.numbers(1, 2);
+    check(n[0] >= 0.0 && n[0] <= largest_price, fmt::format("P must be from 0 to {}", largest_price), n[0]);
+    if (n.size() == 2) check(n[1] > 0.0, "D must be greater than 0", n[1]);
+    prices.clearance = {n[0], n.size() == 2 ? std::optional(n[1]) : std::nullopt};
+  } else if (word.name == "area") {
+    if (!fields.number_follows()) line.refuse_usage(fields.done() ? "nothing" : fields.word());
+    const double factor = factor_of(fields.number());
+    push_asked(prices.areas, {factor, checked_corners(), fields.place().line}, execution);
+  } else if (word.name == "keep-out") {
+    push_asked(prices.keep_out, {checked_corners(), fields.place().line}, execution);
+  } else if (word.name == "unknown") {
+    prices.unknown = factor_of(line.numbers(1, 1)[0]);
+  } else {
+    PriceMask mask;
+    mask.file = file_of_word(fields.word());
+    const std::string_view kind = fields.word();
+    if (mask.file.empty() || kind.empty()) line.refuse_usage("too few words");
+    if (kind == "areas") {
+      mask.factor = factor_of(line.numbers(1, 1)[0]);
+    } else if (kind == "keep-out") {
+      mask.kind = MaskKind::keep_out;
+      if (const std::vector<double> n = line.numbers(0, 1); !n.empty()) mask.factor = factor_of(n[0]);
+    } else if (kind == "speed") {
+      constexpr double largest_of_speed = 1e6;
+      mask.kind = MaskKind::speed;
+      const std::vector<double> n = line.numbers(0, 2);
+      if (n.size() == 1) line.refuse_usage("1 number");
+      if (n.size() == 2) std::tie(mask.base, mask.multiplier) = std::pair(n[0], n[1]);
+      for (const double x : n) check(std::abs(x) <= largest_of_speed, "BASE and MULTIPLIER are at most 1e6", x);
+    } else {
+      line.refuse_usage(kind);
+    }
+    push_asked(prices.masks, std::move(mask), execution);
+  }
 }
 
 void read_price_line(std::string_view line, const std::string& where, Prices& prices, const Execution& execution) {
@@ -455,7 +433,7 @@ std::vector<std::string> price_lines(const Prices& prices,
     lines.push_back(fmt::format("area {}{}", digits_of(area.factor), corners_text(area.corners)));
   for (const PriceMask& mask : prices.masks) lines.push_back(mask_text(mask, name_of_file(mask.file)));
   for (const KeepOut& area : prices.keep_out) lines.push_back("keep-out" + corners_text(area.corners));
-  if (prices.unknown) lines.push_back("unknown " + digits_of(*prices.unknown));
+  if (prices.opens_unknown()) lines.push_back("unknown " + digits_of(*prices.unknown));
   return lines;
 }
 

@@ -241,7 +241,7 @@ inline constexpr std::array<PriceWord, 5> price_line_words{
      {"unknown", "unknown F", true}}};
 
 /// Reads what follows the word, one of these, to the line's end: areas and masks are added, others are replaced. Masks
-/// are named, not read (scenes/files/ros_map_io.hpp). Throws InputError naming the fields' place, Stopped.
+/// are named, not read (scenes/files/plane_formats_io.hpp). Throws InputError naming the fields' place, Stopped.
 void read_price(const PriceWord& word, scene_text::Fields& fields, Prices& prices, const Execution& execution);
 
 /// Reads such a line from its word on. Throws InputError naming `where`, Stopped.

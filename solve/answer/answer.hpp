@@ -8,7 +8,9 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "core/base/solution.hpp"
@@ -16,12 +18,38 @@
 #include "core/plane/se2.hpp"
 #include "core/run/execution.hpp"
 #include "solve/answer/world_account.hpp"
-#include "solve/question/figure.hpp"
 #include "solve/question/question.hpp"
 #include "verify/judges/verification.hpp"
 #include "verify/judges/verify_bound.hpp"
 
 namespace warren {
+// What a planner tells of its work beyond what all planners do.
+
+/// An edge of a sampled visibility graph that passes through an obstacle.
+struct WrongEdge {
+  std::uint32_t from;  ///< number of a corner
+  std::uint32_t to;    ///< number of a corner
+  double depth;        ///< how far inside, world units
+};
+
+/// What a planner tells beside what all tell.
+using Figure =
+    std::variant<bool, std::uint64_t, double, std::string, std::vector<std::uint64_t>, std::vector<WrongEdge>>;
+
+/// A figure with its key in JSON.
+struct NamedFigure {
+  std::string name;  ///< the key
+  Figure value;      ///< of the unit that the key says
+};
+
+/// The figure of that name, or nullptr.
+inline const Figure* figure_named(const std::vector<NamedFigure>& figures, std::string_view name) {
+  for (const NamedFigure& figure : figures) {
+    if (figure.name == name) return &figure.value;
+  }
+  return nullptr;
+}
+
 // What became of the work of a solve beyond what its answer tells anyhow: which stage lost what, where it is narrow,
 // and what would likely help. Plain data; exact, and the same for any number of threads.
 
@@ -173,11 +201,13 @@ struct ClaimedPath {
   std::size_t state_count() const { return states.empty() ? path.size() : states.size(); }
   /// Numbers a state.
   std::size_t state_width() const { return states.empty() ? 2 : states.width; }
-  /// The numbers of state i.
-  std::vector<double> state(std::size_t i) const {
-    if (states.empty()) return {path[i].x, path[i].y};
-    return {states[i].begin(), states[i].end()};
+  /// The numbers of state i, where they are.
+  std::span<const double> numbers(std::size_t i) const {
+    static_assert(sizeof(Vec2) == 2 * sizeof(double));
+    return states.empty() ? std::span<const double>(&path[i].x, 2) : states[i];
   }
+  /// A copy of them.
+  std::vector<double> state(std::size_t i) const { return {numbers(i).begin(), numbers(i).end()}; }
 };
 
 /// What solve() found: an outcome, a verified path where there is one, and the account of the work.

@@ -32,21 +32,11 @@ bool by_trees(const Answer& answer) {
 
 /// Samplers that look for free states take others, too, and drop them.
 std::string_view why_dropped(const Answer& answer) {
-  for (const std::string_view seeking : {"gaussian", "bridge", "mixture"}) {
-    if (answer.sampler == seeking) return "dropped: in obstacles, or not where the sampler looks";
-  }
-  return "in obstacles or out of bounds";
+  const bool seeks = answer.sampler == "gaussian" || answer.sampler == "bridge" || answer.sampler == "mixture";
+  return seeks ? "dropped: in obstacles, or not where the sampler looks" : "in obstacles or out of bounds";
 }
 
-struct Lines {
-  const Palette& palette;
-  std::string text = {};
-  void add(std::string_view name, std::string_view what) {
-    if (!what.empty()) text += fmt::format("  {}{}\n", palette.faint(fmt::format("{:<14}", name)), what);
-  }
-};
-
-void add_samples(Lines& lines, const Answer& answer) {
+void add_samples(AnswerLines& lines, const Answer& answer) {
   const Counters& c = answer.counters;
   if (c.samples == 0) return;
   const std::string rounds = c.rounds > 1 ? fmt::format(" in {} rounds", grouped(c.rounds)) : "";
@@ -62,7 +52,7 @@ void add_samples(Lines& lines, const Answer& answer) {
                         grouped(c.samples - c.kept), share(c.samples - c.kept, c.samples), why_dropped(answer)));
 }
 
-void add_edges(Lines& lines, const Answer& answer) {
+void add_edges(AnswerLines& lines, const Answer& answer) {
   const Counters& c = answer.counters;
   if (c.edges_checked == 0) return;
   std::string text =
@@ -72,7 +62,7 @@ void add_edges(Lines& lines, const Answer& answer) {
   lines.add("motions", text);
 }
 
-void add_components(Lines& lines, const Answer& answer) {
+void add_components(AnswerLines& lines, const Answer& answer) {
   if (!answer.explained->components) return;
   const ComponentFacts& facts = *answer.explained->components;
   lines.add("components",
@@ -85,7 +75,7 @@ void add_components(Lines& lines, const Answer& answer) {
   }
 }
 
-void add_gap(Lines& lines, const Answer& answer) {
+void add_gap(AnswerLines& lines, const Answer& answer) {
   const Separation& s = answer.separation;
   if (answer.outcome != Outcome::not_connected || answer.refuted || std::isnan(s.nearest_gap)) return;
   const bool in_plane = answer.problem.start.size() <= 3 && !std::isnan(s.near_start[0]);
@@ -96,7 +86,7 @@ void add_gap(Lines& lines, const Answer& answer) {
                                         : ""));
 }
 
-void add_search(Lines& lines, const Answer& answer) {
+void add_search(AnswerLines& lines, const Answer& answer) {
   const std::uint64_t expanded = answer.counters.expanded;
   if (expanded == 0) return;
   const std::uint64_t milestones = answer.roadmap.milestones;
@@ -106,7 +96,7 @@ void add_search(Lines& lines, const Answer& answer) {
   lines.add("search", text);
 }
 
-void add_narrowest(Lines& lines, const Answer& answer) {
+void add_narrowest(AnswerLines& lines, const Answer& answer) {
   if (!answer.explained->narrowest) return;
   const NarrowPlace& narrow = *answer.explained->narrowest;
   std::string text = fmt::format("{}; {} asked for", text_of(narrow), human_number(answer.problem.clearance));
@@ -116,7 +106,7 @@ void add_narrowest(Lines& lines, const Answer& answer) {
   lines.add("narrowest", text);
 }
 
-void add_times(Lines& lines, const Answer& answer) {
+void add_times(AnswerLines& lines, const Answer& answer) {
   auto stages = named_stages(answer.seconds);
   std::ranges::stable_sort(stages, [](const auto& a, const auto& b) { return a.second > b.second; });
   double whole = 0.0;
@@ -128,7 +118,7 @@ void add_times(Lines& lines, const Answer& answer) {
     text += fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", name, 100.0 * seconds / whole);
     told += seconds;
   }
-  lines.add("time went to", text);
+  if (!text.empty()) lines.add("time went to", text);
 }
 
 std::string components_json(const ComponentFacts& facts) {
@@ -165,9 +155,7 @@ std::string samples_note(const Answer& answer) {
 
 std::string room_note(const Answer& answer) {
   if (!answer.blocked || !(answer.blocked->needed > 0.0)) return {};
-  for (const char* other : {"outside", "limits"}) {
-    if (answer.blocked->by.starts_with(other)) return {};
-  }
+  if (answer.blocked->by.starts_with("outside") || answer.blocked->by.starts_with("limits")) return {};
   const std::string room = human_number(std::max(0.0, answer.blocked->room));
   const std::string needed = human_number(answer.blocked->needed);
   return fmt::format("{} there, {} needed", room, room == needed ? "a hair more" : needed);
@@ -202,35 +190,30 @@ std::string heuristic_note(const Answer& answer) {
 struct Link {
   std::string_view key;
   std::string_view label;
-  std::uint64_t (*count)(const Answer&) = nullptr;  ///< null: nothing is counted
-  std::string (*counted)(const Answer&) = nullptr;
+  std::string_view items = {};
+  std::uint64_t (*count)(const Answer&) = nullptr;       ///< of items; null: nothing is counted
+  std::string (*came_of_them)(const Answer&) = nullptr;  ///< behind the items; null: nothing is told
 };
 
 constexpr std::array links{
     Link{"index", "index of obstacles"},
-    Link{"sample", "samples drawn", [](const Answer& a) { return a.counters.samples; },
-         [](const Answer& a) { return fmt::format("samples, {} kept", grouped(a.counters.kept)); }},
-    Link{"neighbours", "index built", [](const Answer& a) { return a.counters.kept; },
-         [](const Answer&) { return std::string("milestones"); }},
-    Link{"queries", "neighbours asked", [](const Answer& a) { return a.counters.neighbour_queries; },
-         [](const Answer&) { return std::string("queries"); }},
-    Link{"checks", "edges checked", [](const Answer& a) { return a.counters.edges_checked; },
-         [](const Answer& a) { return fmt::format("edges, {} free", grouped(a.counters.edges_free)); }},
-    Link{"rows", "CSR rows", [](const Answer& a) { return a.roadmap.milestones; },
+    Link{"sample", "samples drawn", "samples", [](const Answer& a) { return a.counters.samples; },
+         [](const Answer& a) { return fmt::format(", {} kept", grouped(a.counters.kept)); }},
+    Link{"neighbours", "index built", "milestones", [](const Answer& a) { return a.counters.kept; }},
+    Link{"queries", "neighbours asked", "queries", [](const Answer& a) { return a.counters.neighbour_queries; }},
+    Link{"checks", "edges checked", "edges", [](const Answer& a) { return a.counters.edges_checked; },
+         [](const Answer& a) { return fmt::format(", {} free", grouped(a.counters.edges_free)); }},
+    Link{"rows", "CSR rows", "rows", [](const Answer& a) { return a.roadmap.milestones; },
+         [](const Answer& a) { return ", " + human_bytes(static_cast<double>(a.counters.row_bytes)); }},
+    Link{"reduction", "reduction", "vertices", [](const Answer& a) { return a.roadmap.milestones; }},
+    Link{"components", "components", "vertices", [](const Answer& a) { return a.roadmap.milestones; },
+         [](const Answer& a) { return ", " + counted(a.roadmap.components, "component", "components"); }},
+    Link{"expansion", "queue and search", "expanded", [](const Answer& a) { return a.counters.expanded; },
          [](const Answer& a) {
-           return fmt::format("rows, {}", human_bytes(static_cast<double>(a.counters.row_bytes)));
-         }},
-    Link{"reduction", "reduction", [](const Answer& a) { return a.roadmap.milestones; },
-         [](const Answer&) { return std::string("vertices"); }},
-    Link{"components", "components", [](const Answer& a) { return a.roadmap.milestones; },
-         [](const Answer& a) { return "vertices, " + counted(a.roadmap.components, "component", "components"); }},
-    Link{"expansion", "queue and search", [](const Answer& a) { return a.counters.expanded; },
-         [](const Answer& a) {
-           return fmt::format("expanded, {} pushes, {} decreases", grouped(a.counters.pushes),
-                              grouped(a.counters.decreases));
+           return fmt::format(", {} pushes, {} decreases", grouped(a.counters.pushes), grouped(a.counters.decreases));
          }},
     Link{"optimise", "pulled taut"},
-    Link{"verify", "verified", path_points, [](const Answer&) { return std::string("points"); }},
+    Link{"verify", "verified", "points", path_points},
     Link{"bound", "lower bound"},
 };
 constexpr std::size_t first_of_the_end = links.size() - 3;
@@ -241,9 +224,8 @@ std::size_t place_of(std::string_view key) {
 }
 
 bool is_sum(std::string_view key) {
-  constexpr std::array<std::string_view, 11> sums{"read",  "generate", "index",  "sample",   "neighbours", "connect",
-                                                  "graph", "reduce",   "search", "optimise", "verify"};
-  return std::ranges::find(sums, key) != sums.end();
+  constexpr StageTimes all{1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
+  return std::ranges::any_of(named_stages(all), [&](const auto& stage) { return stage.first == key; });
 }
 
 std::vector<StageLine> plain_lines(const std::vector<StageCost>& costs) {
@@ -262,6 +244,10 @@ std::vector<StageLine> plain_lines(const std::vector<StageCost>& costs) {
 
 }  // namespace
 
+void AnswerLines::add(std::string_view name, std::string_view what) {
+  text += fmt::format("  {}{}\n", palette.faint(fmt::format("{:<14}", name)), what);
+}
+
 std::vector<StageLine> stage_lines(const Answer& answer) {
   std::vector<StageLine> lines = plain_lines(answer.costs);
   for (StageLine& line : lines) {
@@ -270,7 +256,9 @@ std::vector<StageLine> stage_lines(const Answer& answer) {
     const Link& link = links[place];
     line.label = link.label;
     if (link.count != nullptr) line.count = link.count(answer);
-    if (line.count > 0) line.counted = link.counted(answer);
+    if (line.count == 0) continue;
+    line.counted = link.items;
+    if (link.came_of_them != nullptr) line.counted += link.came_of_them(answer);
   }
   return lines;
 }
@@ -304,7 +292,7 @@ std::string narrowest_json(const std::optional<NarrowPlace>& narrow) {
 
 std::string explanation_text(const Answer& answer, const Palette& palette) {
   if (!answer.explained) return {};
-  Lines lines{palette};
+  AnswerLines lines{palette};
   add_samples(lines, answer);
   add_edges(lines, answer);
   add_components(lines, answer);
@@ -330,19 +318,21 @@ std::string explanation_json(const Answer& answer) {
   json.add_json("components", explained.components ? components_json(*explained.components) : "null");
   json.add_json("narrowest", narrowest_json(explained.narrowest));
   json.add_json("hints", json_list_of(explained.hints, ",", hint_json));
-  json.add_or_null("stopped_by", explained.stopped.has_value(),
-                   explained.stopped ? name_of(*explained.stopped) : std::string_view{});
+  json.add_json("stopped_by", explained.stopped ? json_string(name_of(*explained.stopped)) : "null");
   return json.closed();
 }
 
 std::string notes_text(const Answer& answer, const Palette& palette) {
-  Lines lines{palette};
-  lines.add("room", room_note(answer));
-  lines.add("heuristic", heuristic_note(answer));
-  if (!answer.explained) lines.add("samples", samples_note(answer));
-  lines.add("note", lazy_note(answer));
-  lines.add("note", doors_note(answer));
-  for (const std::string& line : answer.problem.told) lines.add("note", line);
+  AnswerLines lines{palette};
+  const auto add = [&](std::string_view name, const std::string& note) {
+    if (!note.empty()) lines.add(name, note);
+  };
+  add("room", room_note(answer));
+  add("heuristic", heuristic_note(answer));
+  if (!answer.explained) add("samples", samples_note(answer));
+  add("note", lazy_note(answer));
+  add("note", doors_note(answer));
+  for (const std::string& line : answer.problem.told) add("note", line);
   return lines.text;
 }
 

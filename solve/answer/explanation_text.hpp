@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -13,7 +14,14 @@
 
 namespace warren {
 
-/// Lines of a name and a text, each with its end; empty unless the answer is explained.
+/// Lines of a name and a text, each with its end, as people are told of an answer.
+struct AnswerLines {
+  const Palette& palette;
+  std::string text = {};
+  void add(std::string_view name, std::string_view what);
+};
+
+/// AnswerLines; empty unless the answer is explained.
 std::string explanation_text(const Answer& answer, const Palette& palette);
 /// "0.5 of room on leg 1, near 3,4"
 std::string text_of(const NarrowPlace& narrow);
@@ -25,7 +33,7 @@ std::string explanation_json(const Answer& answer);
 // What a summary's figures leave open unless somebody says it: samples that were dropped, edges that nobody asked
 // about, what an estimate cost, that another option would find the shortest way.
 
-/// Lines of a name and a text, each with its end; empty where there is nothing to note.
+/// AnswerLines; empty where there is nothing to note.
 std::string notes_text(const Answer& answer, const Palette& palette);
 
 // The stages of an answer one by one, as lines: what each took, of how many items. Where planners draw samples, these

@@ -107,7 +107,8 @@ class AnswerReader {
     if (in("path") && arrays_ == 1) end_point();
     if (in_states() && arrays_ == 1) {
       if (numbers_.size() < (in("goals") ? 1U : 2U)) refuse(point_expected, fmt::format("{} numbers", numbers_.size()));
-      (in("goals") ? goals_ : in("via") ? answer_.via : answer_.problem.rule.visit).push_back(numbers_);
+      GoalRule& rule = answer_.problem.rule;
+      (in("goals") ? rule.others : in("via") ? answer_.via : rule.visit).push_back(numbers_);
     }
     if (objects_ == 2) end_inner_list();
     if (in("start") && arrays_ == 0) answer_.problem.start = numbers_;
@@ -129,7 +130,7 @@ class AnswerReader {
       if (state->size() == 1 && !of_arm) refuse(point_expected);
     }
     GoalRule& rule = answer_.problem.rule;
-    if (!goals_.empty()) rule.others.assign(goals_.begin() + 1, goals_.end());  // the first is "goal"
+    if (!rule.others.empty()) rule.others.erase(rule.others.begin());  // the first is "goal"
     if (answer_.price) answer_.price->error = cost_error_;
     try {
       check_prices(answer_.problem.prices);
@@ -276,7 +277,6 @@ class AnswerReader {
   std::string innermost_key_;  // of an object in that
   int objects_ = 0;
   int arrays_ = 0;
-  std::vector<std::vector<double>> goals_;  // all, where there are several
   double cost_error_ = 0.0;
   std::vector<double> numbers_;  // of the array that is being read
   bool has_path_ = false;

@@ -29,23 +29,29 @@ WorldAccount account_of(const Scene& scene, std::string hash) {
   return world;
 }
 
+std::string contents_text(const WorldAccount& world) {
+  std::string text;
+  const auto add = [&](std::uint64_t count, const char* one, const char* many) {
+    text += (text.empty() ? "" : ", ") + counted(count, one, many);
+  };
+  if (world.polygons > 0) add(world.polygons, "polygon", "polygons");
+  const bool nothing_else = world.polygons + world.spheres + world.boxes + world.solids == 0;
+  if (nothing_else || world.walls > 0) add(world.walls, "wall", "walls");
+  if (world.spheres > 0) add(world.spheres, "sphere", "spheres");
+  if (world.boxes > 0) add(world.boxes, "box", "boxes");
+  if (world.solids > 0) add(world.solids, "solid", "solids");
+  return text;
+}
+
 std::string description_of(const Scene& scene) {
   if (scene.map) {
     return fmt::format("map of {} x {} cells, {} free", scene.map->width(), scene.map->height(),
                        grouped(scene.map->free));
   }
-  std::string text = scene.maze ? fmt::format("{} x {} maze, ", scene.maze->rows, scene.maze->cols) : "";
-  if (!scene.polygons.empty()) text += counted(scene.polygons.size(), "polygon", "polygons");
-  if (!scene.polygons.empty() && scene.walls.size() > 0) text += ", ";
-  const bool nothing_else = scene.polygons.empty() && !has_solids(scene);
-  if (nothing_else || scene.walls.size() > 0) text += counted(scene.walls.size(), "wall", "walls");
-  const auto add_solids = [&](std::size_t count, const char* one, const char* many) {
-    if (count > 0) text += (text.empty() ? "" : ", ") + counted(count, one, many);
-  };
-  add_solids(scene.spheres.size(), "sphere", "spheres");
-  add_solids(scene.boxes.size(), "box", "boxes");
-  add_solids(scene.solids.size(), "solid", "solids");
-  return text;
+  WorldAccount held = account_of(scene, std::string());
+  held.walls = scene.walls.size();
+  const std::string maze = scene.maze ? fmt::format("{} x {} maze, ", scene.maze->rows, scene.maze->cols) : "";
+  return maze + contents_text(held);
 }
 
 namespace {

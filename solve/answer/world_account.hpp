@@ -34,6 +34,8 @@ inline WorldAccount account_of(const Scene& scene, const Execution& execution) {
   return account_of(scene, scene_hash(scene, execution));
 }
 
+/// "1,604 walls": what it holds, for people; not of a map.
+std::string contents_text(const WorldAccount& world);
 /// "41 x 41 maze, 1,604 walls": what a person wants to know first.
 std::string description_of(const Scene& scene);
 

@@ -270,8 +270,7 @@ void write_states(const Path<Vec2>& path, const StateList& states, const Executi
   const std::size_t count = states.empty() ? path.size() : states.size();
   std::string text = "[";
   for (std::size_t i = 0; i < count; ++i) {
-    const std::array<double, 2> place = states.empty() ? std::array{path[i].x, path[i].y} : std::array<double, 2>{};
-    const std::span<const double> state = states.empty() ? std::span<const double>(place) : states[i];
+    const std::span<const double> state = states.empty() ? std::span<const double>(&path[i].x, 2) : states[i];
     text.append(i == 0 ? "[" : ", [");
     for (std::size_t k = 0; k < state.size(); ++k) append_json_number(text += k == 0 ? "" : ", ", state[k]);
     text.append("]");
@@ -313,12 +312,7 @@ std::string path_hash(const Answer& answer, const Execution& execution) {
   PathHash hash;
   for (std::size_t i = 0; i < answer.state_count(); ++i) {
     execution.poll(i);
-    if (answer.states.empty()) {
-      hash.add(answer.path[i].x);
-      hash.add(answer.path[i].y);
-    } else {
-      for (std::size_t k = 0; k < answer.states.width; ++k) hash.add(answer.states[i][k]);
-    }
+    for (const double number : answer.numbers(i)) hash.add(number);
   }
   return hash.text();
 }
@@ -329,20 +323,18 @@ std::string violation_json(const Violation& violation) {
 }
 
 std::vector<std::pair<const char*, double>> named_stages(const StageTimes& s) {
-  constexpr double always = -1.0;  // shown even if nothing was done there
-  struct Stage {
-    const char* name;
-    double seconds;
-    double only_above;
-  };
   std::vector<std::pair<const char*, double>> named;
-  for (const Stage& stage :
-       {Stage{"read", s.read, 0.0}, Stage{"generate", s.generate, 0.0}, Stage{"index", s.index, always},
-        Stage{"sample", s.sample, always}, Stage{"neighbours", s.neighbours, always},
-        Stage{"connect", s.connect, always}, Stage{"graph", s.graph, always}, Stage{"reduce", s.reduce, 0.0},
-        Stage{"search", s.search, always}, Stage{"optimise", s.optimise, 0.0}, Stage{"verify", s.verify, always}}) {
-    if (stage.seconds > stage.only_above) named.emplace_back(stage.name, stage.seconds);
-  }
+  if (s.read > 0.0) named.emplace_back("read", s.read);
+  if (s.generate > 0.0) named.emplace_back("generate", s.generate);
+  named.insert(named.end(), {{"index", s.index},
+                             {"sample", s.sample},
+                             {"neighbours", s.neighbours},
+                             {"connect", s.connect},
+                             {"graph", s.graph}});
+  if (s.reduce > 0.0) named.emplace_back("reduce", s.reduce);
+  named.emplace_back("search", s.search);
+  if (s.optimise > 0.0) named.emplace_back("optimise", s.optimise);
+  named.emplace_back("verify", s.verify);
   return named;
 }
 
@@ -371,11 +363,7 @@ void write_answer_json(const Answer& answer, const Execution& execution,
     write("}],\n ");
   }
   write("\"path\": ");
-  if (answer.tells_path) {
-    write_states(answer.path, answer.states, execution, write);
-  } else {
-    write("[]");
-  }
+  answer.tells_path ? write_states(answer.path, answer.states, execution, write) : write("[]");
   write("}\n");
 }
 

@@ -21,6 +21,7 @@
 #include "core/plane/geometry.hpp"
 #include "core/plane/polygon.hpp"
 #include "core/plane/se2.hpp"
+#include "parallel/asked_memory.hpp"
 #include "scenes/text/human_units.hpp"
 #include "solve/explain/nearest_free.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
@@ -28,10 +29,9 @@
 #include "solve/kinds/solve_steps.hpp"
 #include "solve/question/question_of_arm.hpp"
 #include "spatial/maps/distance_field.hpp"
-#include "verify/near/leg_boxes.hpp"
+#include "verify/near/obstacle_index.hpp"
 #include "worlds/arms/arm_kinematics.hpp"
 #include "worlds/arms/convex_motion.hpp"
-#include "worlds/arms/puma560.hpp"
 #include "worlds/arms/serial_chain.hpp"
 
 namespace warren {
@@ -170,7 +170,13 @@ class BlockedEndSearch {
     bare.clearance = 0.0;
     BlockedEndSearch there(*alone, bare, state_, execution_);
     if (!there.met(0.0)) return std::nullopt;
-    return there.way_out();
+    const Box box = there.room();
+    const double farthest = portable::hypot(box.width(), box.height());
+    const double touching = 1e-6 * farthest;
+    const auto is_out = [&](const Numbers<2>& p) { return there.is_free({p[0], p[1]}, 0.0); };
+    NearestFree<2, decltype(is_out)> search({at().x, at().y}, directions_, is_out);
+    const auto found = search.find({touching, farthest});
+    return found && found->distance > touching ? std::optional(found->distance) : std::nullopt;
   }
 
   /// With so much more room than is asked for.
@@ -274,29 +280,20 @@ class BlockedEndSearch {
     double obstacles = 1.0 + static_cast<double>(scene_.walls.size());
     for (const ScenePolygon& polygon : scene_.polygons) obstacles += static_cast<double>(polygon.corners.size());
     const double a_side = std::clamp(std::sqrt(most_looks / obstacles) - 1.0, 1.0, 0.5 * most);
-    const OccupancyMap* map = scene_.map ? &*scene_.map : nullptr;
+    const std::optional<OccupancyMap>& map = scene_.map;
     const auto few = static_cast<std::uint32_t>(a_side);
-    const std::uint32_t columns = map != nullptr ? std::min(2 * map->width(), most) : few;
-    const std::uint32_t rows = map != nullptr ? std::min(2 * map->height(), most) : few;
+    const std::uint32_t columns = map ? std::min(2 * map->width(), most) : few;
+    const std::uint32_t rows = map ? std::min(2 * map->height(), most) : few;
     std::vector<Vec2> places;
     for (std::uint32_t y = 0; y <= rows; ++y) {
       for (std::uint32_t x = 0; x <= columns; ++x) {
         const Vec2 share{static_cast<double>(x) / columns, static_cast<double>(y) / rows};
-        places.push_back(map != nullptr ? world_point(*map, {share.x * map->width(), share.y * map->height()})
-                                        : box.min + Vec2{share.x * box.width(), share.y * box.height()});
+        places.push_back(map ? world_point(*map, {share.x * map->width(), share.y * map->height()})
+                             : box.min + Vec2{share.x * box.width(), share.y * box.height()});
       }
     }
     std::ranges::stable_sort(places, [this](Vec2 a, Vec2 b) { return norm(a - middle_) < norm(b - middle_); });
     return places;
-  }
-  std::optional<double> way_out() {
-    const Box box = room();
-    const double farthest = portable::hypot(box.width(), box.height());
-    const auto is_out = [this](const Numbers<2>& p) { return is_free({p[0], p[1]}, 0.0); };
-    NearestFree<2, decltype(is_out)> search({at().x, at().y}, directions_, is_out);
-    const double touching = 1e-6 * farthest;
-    const auto found = search.find({touching, farthest});
-    return found && found->distance > touching ? std::optional(found->distance) : std::nullopt;
   }
 
   const Scene& scene_;
@@ -676,7 +673,7 @@ Scene obstacles_near(const Scene& scene, std::span<const Vec2> path, double reac
   for (std::size_t i = 0; i < scene.walls.size(); ++i) {
     execution.poll(i);
     const Segment wall = scene.walls.segment(i);
-    if (keeps(box_of(wall))) walls.push_back(wall);
+    if (keeps(box_of(wall))) push_asked(walls, wall, execution);
   }
   near.walls = WallSet::narrowest(walls);
   std::erase_if(near.polygons, [&](const ScenePolygon& polygon) {

@@ -73,13 +73,9 @@ bool take_state(std::vector<double>& state, bool is_goal) {
 std::vector<double> numbers_of(const Json& json, const char* key) {
   const auto found = json.find(key);
   if (found == json.end()) return {};
-  std::vector<double> numbers;
-  if (!found->is_array()) throw InputError(key, "expected a list of numbers");
-  for (const Json& number : *found) {
-    if (!number.is_number()) throw InputError(key, "expected a list of numbers");
-    numbers.push_back(number.get<double>());
-  }
-  return numbers;
+  const bool are_numbers = std::all_of(found->begin(), found->end(), [](const Json& x) { return x.is_number(); });
+  if (!found->is_array() || !are_numbers) throw InputError(key, "expected a list of numbers");
+  return found->get<std::vector<double>>();
 }
 
 void take_id(const Json& json, BatchQuestion& question) {
@@ -249,17 +245,13 @@ class BatchQuestions {
 // Questions whose answers are held at once: lengths are few bytes, paths may be millions.
 constexpr std::size_t path_block = 1024;
 constexpr std::size_t length_block = 16384;
+constexpr std::size_t bytes_of_number = 26;  // as text, at most
 
 std::string path_json(const Answer& answer) {
   std::string text = "[";
-  const auto add = [&](std::span<const double> state) {
-    if (text.size() > 1) text += ',';
-    append_json_list(text, state);
-  };
-  if (!answer.states.empty()) {
-    for (std::size_t i = 0; i < answer.states.size(); ++i) add(answer.states[i]);
-  } else {
-    for (const Vec2 p : answer.path) add(std::array{p.x, p.y});
+  for (std::size_t i = 0; i < answer.state_count(); ++i) {
+    if (i > 0) text += ',';
+    append_json_list(text, answer.numbers(i));
   }
   return text + "]";
 }
@@ -303,6 +295,9 @@ void add_answer(const RoadmapQuery& query, const BatchOptions& options, const Ba
       }
       const Answer answer = query.ask_within(question.start, question.goal, options.how, one_thread, scratch);
       if (answer.outcome == Outcome::stopped) throw Stopped(answer.stop_reason.value_or(StopReason::time));
+      constexpr std::size_t copies = 4;  // while the text grows, and moves into the block's
+      const std::size_t numbers = options.csv ? 0 : answer.state_count() * answer.state_width();
+      one_thread.reserve(copies * bytes_of_number * numbers);
       return add_line(options, question, answer.outcome, answer.verified ? std::optional(answer.length) : std::nullopt,
                       &answer, chunk);
     } catch (const UsageError& wrong) {
@@ -312,6 +307,18 @@ void add_answer(const RoadmapQuery& query, const BatchOptions& options, const Ba
   ++chunk.wrong;
   chunk.text += options.csv ? question.csv_id() + (options.lengths_only ? ",error,\n" : ",error,,\n")
                             : "{\"id\":" + question.json_id() + ",\"error\":" + json_string(error) + "}\n";
+}
+
+/// What the threads keep, one each.
+using Scratches = std::vector<QuestionScratch>;
+
+/// Calls each(question, which of the scratches is its thread's), each thread with questions that follow one another.
+template <class Each>
+void deal(std::size_t questions, const Scratches& scratches, const Execution& execution, const Each& each) {
+  const std::size_t share = std::max<std::size_t>(1, chunk_count(questions, scratches.size()));
+  for_chunks(questions, share, execution, [&](Range r) {
+    for (std::size_t i = r.first; i < r.last; ++i) each(i, r.first / share);
+  });
 }
 
 Execution on_one_thread(const Execution& execution) {
@@ -344,108 +351,46 @@ struct Entry {
   bool is_solved() const { return error.empty() && answer.outcome == Outcome::solved; }
 };
 
-class Matrix {
- public:
-  Matrix(const RoadmapQuery& query, std::vector<BatchQuestion> goals, const BatchOptions& options,
-         const Execution& execution)
-      : query_(query),
-        goals_(std::move(goals)),
-        options_(options),
-        execution_(execution),
-        scratch_(thread_count(execution.threads)) {
-    account_.goals = goals_.size();
-    for (const BatchQuestion& goal : goals_) account_.wrong += goal.error.empty() ? 0 : 1;
+Entry asked_pair(const RoadmapQuery& query, const BatchOptions& options, const BatchQuestion& start,
+                 const BatchQuestion& goal, const Execution& one_thread, QuestionScratch& scratch) {
+  if (!start.error.empty()) return {{}, start.error};
+  if (!goal.error.empty()) return {{}, fmt::format("goal {}: {}", goal.id, goal.error)};
+  try {
+    one_thread.check();
+    return {query.length_within(start.start, goal.start, options.how, one_thread, scratch), {}};
+  } catch (const UsageError& error) {
+    return {{}, error.what()};
   }
-  const MatrixAccount& account() const { return account_; }
-  std::size_t starts_at_once() const {
-    return std::clamp<std::size_t>(pairs_at_once / std::max<std::size_t>(goals_.size(), 1), 1, most_starts);
-  }
-  std::string header() const {
-    if (!options_.csv) return {};
-    std::string text = "id";
-    for (const BatchQuestion& goal : goals_) text.append(",").append(goal.csv_id());
-    return text + "\n";
-  }
-  void answer(const std::vector<BatchQuestion>& starts, const std::function<void(std::string_view)>& write) {
-    const std::size_t pairs = starts.size() * goals_.size();
-    execution_.reserve(pairs * bytes_of_entry);
-    if (!goals_.empty()) {
-      for (const BatchQuestion& start : starts) query_.expect(start.start, execution_);
-      for (const BatchQuestion& goal : goals_) query_.expect(goal.start, execution_);
-    }
-    entries_.resize(pairs);
-    const Execution one_thread = on_one_thread(execution_);
-    const std::size_t share = std::max<std::size_t>(1, (pairs + scratch_.size() - 1) / scratch_.size());
-    for_chunks(pairs, share, execution_, [&](Range r) {
-      for (std::size_t i = r.first; i < r.last; ++i) {
-        entries_[i] =
-            asked(starts[i / goals_.size()], goals_[i % goals_.size()], one_thread, scratch_[r.first / share]);
-      }
-    });
-    for (std::size_t i = 0; i < starts.size(); ++i) {
-      const std::span<const Entry> row = std::span(entries_).subspan(i * goals_.size(), goals_.size());
-      count(starts[i], row);
-      write(options_.csv ? csv_line(starts[i], row) : json_line(starts[i], row));
-    }
-  }
+}
 
- private:
-  Entry asked(const BatchQuestion& start, const BatchQuestion& goal, const Execution& one_thread,
-              QuestionScratch& scratch) const {
-    if (!start.error.empty()) return {{}, start.error};
-    if (!goal.error.empty()) return {{}, fmt::format("goal {}: {}", goal.id, goal.error)};
-    try {
-      one_thread.check();
-      return {query_.length_within(start.start, goal.start, options_.how, one_thread, scratch), {}};
-    } catch (const UsageError& error) {
-      return {{}, error.what()};
-    }
+std::string csv_line(const BatchQuestion& start, std::span<const Entry> row) {
+  std::string text = start.csv_id();
+  for (const Entry& entry : row) {
+    text += ',';
+    if (!entry.error.empty()) text += "error";
+    if (entry.is_solved()) append_json_number(text, entry.answer.length);
   }
-  void count(const BatchQuestion& start, std::span<const Entry> row) {
-    ++account_.starts;
-    account_.wrong += start.error.empty() ? 0 : 1;
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      const bool is_its_own = start.error.empty() && goals_[i].error.empty();
-      account_.wrong += is_its_own && !row[i].error.empty() ? 1 : 0;
-      account_.solved += row[i].is_solved() ? 1 : 0;
-    }
-  }
-  std::string csv_line(const BatchQuestion& start, std::span<const Entry> row) const {
-    std::string text = start.csv_id();
-    for (const Entry& entry : row) {
-      text += ',';
-      if (!entry.error.empty()) text += "error";
-      if (entry.is_solved()) append_json_number(text, entry.answer.length);
-    }
-    return text + "\n";
-  }
-  /// The row's error is the first of its pairs'.
-  std::string json_line(const BatchQuestion& start, std::span<const Entry> row) const {
-    JsonObject object;
-    object.add_json("id", start.json_id());
-    if (!start.error.empty()) {
-      object.add("error", std::string_view(start.error));
-      return object.closed() + "\n";
-    }
-    object.add_json("status", json_list_of(row, ",", [](const Entry& entry) {
-                      return fmt::format("\"{}\"", entry.error.empty() ? name_of(entry.answer.outcome) : "error");
-                    }));
-    object.add_json("length", json_list_of(row, ",", [](const Entry& entry) {
-                      return entry.is_solved() ? json_number(entry.answer.length) : "null";
-                    }));
-    const auto wrong = std::ranges::find_if(row, [](const Entry& entry) { return !entry.error.empty(); });
-    if (wrong != row.end()) object.add("error", std::string_view(wrong->error));
+  return text + "\n";
+}
+
+/// The row's error is the first of its pairs'.
+std::string json_line(const BatchQuestion& start, std::span<const Entry> row) {
+  JsonObject object;
+  object.add_json("id", start.json_id());
+  if (!start.error.empty()) {
+    object.add("error", std::string_view(start.error));
     return object.closed() + "\n";
   }
-
-  const RoadmapQuery& query_;
-  const std::vector<BatchQuestion> goals_;
-  const BatchOptions& options_;
-  const Execution& execution_;
-  std::vector<QuestionScratch> scratch_;
-  std::vector<Entry> entries_;  // of the starts that are being answered, row by row
-  MatrixAccount account_;
-};
+  object.add_json("status", json_list_of(row, ",", [](const Entry& entry) {
+                    return fmt::format("\"{}\"", entry.error.empty() ? name_of(entry.answer.outcome) : "error");
+                  }));
+  object.add_json("length", json_list_of(row, ",", [](const Entry& entry) {
+                    return entry.is_solved() ? json_number(entry.answer.length) : "null";
+                  }));
+  const auto wrong = std::ranges::find_if(row, [](const Entry& entry) { return !entry.error.empty(); });
+  if (wrong != row.end()) object.add("error", std::string_view(wrong->error));
+  return object.closed() + "\n";
+}
 
 }  // namespace
 
@@ -457,20 +402,16 @@ BatchAccount ask_batch(const RoadmapQuery& query, const InputFile& questions, co
   write(!options.csv ? "" : options.lengths_only ? "id,status,length\n" : "id,status,length,verified\n");
   if (!options.lengths_only) query.prepare_paths(execution);
   std::vector<BatchQuestion> some;
-  std::vector<QuestionScratch> scratch(thread_count(execution.threads));
+  Scratches scratch(thread_count(execution.threads));
   for (QuestionScratch& one : scratch) one.search.tells_separation = false;  // which no line has
   while (reader.next(options.lengths_only ? length_block : path_block, some)) {
     for (const BatchQuestion& question : some) {
       query.expect(question.start, execution);
       query.expect(question.goal, execution);
     }
-    const std::size_t share = (some.size() + scratch.size() - 1) / scratch.size();
-    std::vector<AnsweredChunk> chunks(chunk_count(some.size(), share));
-    for_chunks(some.size(), share, execution, [&](Range r) {
-      const std::size_t chunk = r.first / share;
-      for (std::size_t i = r.first; i < r.last; ++i) {
-        add_answer(query, options, some[i], one_thread, scratch[chunk], chunks[chunk]);
-      }
+    std::vector<AnsweredChunk> chunks(scratch.size());
+    deal(some.size(), scratch, execution, [&](std::size_t i, std::size_t chunk) {
+      add_answer(query, options, some[i], one_thread, scratch[chunk], chunks[chunk]);
     });
     for (const AnsweredChunk& chunk : chunks) {
       write(chunk.text);
@@ -486,11 +427,42 @@ MatrixAccount ask_matrix(const RoadmapQuery& query, const InputFile& starts, con
                          const BatchOptions& options, const Execution& execution,
                          const std::function<void(std::string_view)>& write) {
   BatchQuestions reader(starts, BatchLines::starts, query.roadmap(), execution);
-  Matrix matrix(query, all_places(goals, query.roadmap(), execution), options, execution);
-  write(matrix.header());
+  const std::vector<BatchQuestion> columns = all_places(goals, query.roadmap(), execution);
+  const std::size_t width = columns.size();
+  const Execution one_thread = on_one_thread(execution);
+  MatrixAccount account{.goals = width};
+  std::string header = options.csv ? "id" : "";
+  for (const BatchQuestion& goal : columns) {
+    account.wrong += goal.error.empty() ? 0 : 1;
+    if (options.csv) header.append(",").append(goal.csv_id());
+  }
+  write(options.csv ? header + "\n" : header);
+  Scratches scratch(thread_count(execution.threads));
   std::vector<BatchQuestion> some;
-  while (reader.next(matrix.starts_at_once(), some)) matrix.answer(some, write);
-  return matrix.account();
+  std::vector<Entry> entries;  // of these starts, row by row
+  while (reader.next(std::clamp<std::size_t>(pairs_at_once / std::max<std::size_t>(width, 1), 1, most_starts), some)) {
+    execution.reserve(some.size() * width * bytes_of_entry);
+    entries.resize(some.size() * width);
+    if (width > 0) {
+      for (const BatchQuestion& start : some) query.expect(start.start, execution);
+      for (const BatchQuestion& goal : columns) query.expect(goal.start, execution);
+    }
+    deal(entries.size(), scratch, execution, [&](std::size_t i, std::size_t chunk) {
+      entries[i] = asked_pair(query, options, some[i / width], columns[i % width], one_thread, scratch[chunk]);
+    });
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      const std::span<const Entry> row = std::span(entries).subspan(i * width, width);
+      ++account.starts;
+      account.wrong += some[i].error.empty() ? 0 : 1;
+      for (std::size_t k = 0; k < width; ++k) {
+        const bool is_its_own = some[i].error.empty() && columns[k].error.empty();
+        account.wrong += is_its_own && !row[k].error.empty() ? 1 : 0;
+        account.solved += row[k].is_solved() ? 1 : 0;
+      }
+      write(options.csv ? csv_line(some[i], row) : json_line(some[i], row));
+    }
+  }
+  return account;
 }
 
 }  // namespace warren

@@ -28,17 +28,6 @@ struct ExportAccount {
   friend bool operator==(const ExportAccount&, const ExportAccount&) = default;
 };
 
-/// How often an undirected edge is written. Directed ones are written as they are.
-enum class EdgeWays : std::uint8_t { once, both };
-
-/// An edge of an export.
-struct ExportedEdge {
-  std::uint64_t number;  ///< in the order of writing, from 0
-  VertexId from;         ///< its begin
-  VertexId to;           ///< its end
-  EdgeState state;       ///< what is known of it
-};
-
 /// The files that an export to this path writes: the path, and beside X.gr X.co, beside X.csv X.edges.csv. Throws
 /// UsageError, which names the endings, for others than .geojson .graphml .gr .csv .npz .dot.
 std::vector<std::string> files_of_export(const std::string& path);

@@ -9,7 +9,6 @@
 
 #include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
-#include "planners/lengths/core_graph.hpp"
 #include "planners/mazes/tiled_prm_lattice.hpp"
 #include "scenes/mazes/cell_bits.hpp"
 #include "scenes/mazes/maze_generator.hpp"
@@ -18,25 +17,17 @@
 namespace warren {
 namespace {
 
-Segment right_of(std::ptrdiff_t col, std::ptrdiff_t row) {
-  const Vec2 corner{static_cast<double>(col) + 1.5, static_cast<double>(row) + 1.5};
-  return {{corner.x, corner.y - 1}, corner};
-}
-Segment above(std::ptrdiff_t col, std::ptrdiff_t row) {
-  const Vec2 corner{static_cast<double>(col) + 1.5, static_cast<double>(row) + 1.5};
-  return {{corner.x - 1, corner.y}, corner};
-}
+Segment right_of(double col, double row) { return {{col + 1.5, row + 0.5}, {col + 1.5, row + 1.5}}; }
+Segment above(double col, double row) { return {{col + 0.5, row + 1.5}, {col + 1.5, row + 1.5}}; }
 
 constexpr std::uint32_t most_passes = 32;
 
 constexpr std::size_t cells_in_word = 32;
 constexpr std::size_t grain = std::size_t{1} << 14;  // words
 
-std::size_t words_for(std::uint64_t cells) { return (cells + cells_in_word - 1) / cells_in_word; }
-
 /// Calls visit(cell of the word, its byte in `bytes`) for the cells of a word.
-template <class Cells, class Visit>
-void for_each_cell(const Cells& cells, std::size_t word, const Visit& visit) {
+template <class Visit>
+void for_each_cell(const MazeCells& cells, std::size_t word, const Visit& visit) {
   const std::uint64_t first = word * cells_in_word;
   const std::uint64_t last = std::min(first + cells_in_word, cells.cell_count());
   auto col = static_cast<std::uint32_t>(first / cells.rows());
@@ -47,18 +38,6 @@ void for_each_cell(const Cells& cells, std::size_t word, const Visit& visit) {
     row = 0;
     ++col;
   }
-}
-
-RawVector<std::uint64_t> packed(const MazeCells& cells, const Execution& execution) {
-  execution.reserve(words_for(cells.cell_count()) * sizeof(std::uint64_t));
-  RawVector<std::uint64_t> words(words_for(cells.cell_count()));
-  for_each_index(words.size(), grain, execution, [&](std::size_t w) {
-    words[w] = 0;
-    for_each_cell(cells, w, [&](std::uint64_t i, std::size_t byte) {
-      words[w] |= std::uint64_t{cells.bytes()[byte]} % 4 << (2 * i);
-    });
-  });
-  return words;
 }
 
 /// Calls visit(first column, first row, columns, rows) for the tiles of a lattice, on all threads.
@@ -149,7 +128,16 @@ std::optional<RawVector<std::uint64_t>> maze_bits(const Scene& scene, const Exec
   if (!scene.maze || first_wall_off_grid(scene.walls, *scene.maze, execution)) return std::nullopt;
   const MazeCells cells = cells_of_walls(scene.walls, *scene.maze, execution);
   if (!has_maze_walls(scene.walls, cells, execution)) return std::nullopt;
-  return packed(cells, execution);
+  const std::size_t count = chunk_count(cells.cell_count(), cells_in_word);
+  execution.reserve(count * sizeof(std::uint64_t));
+  RawVector<std::uint64_t> words(count);
+  for_each_index(words.size(), grain, execution, [&](std::size_t w) {
+    words[w] = 0;
+    for_each_cell(cells, w, [&](std::uint64_t i, std::size_t byte) {
+      words[w] |= std::uint64_t{cells.bytes()[byte]} % 4 << (2 * i);
+    });
+  });
+  return words;
 }
 
 bool has_walls_of(const LatticePassages& lattice, const Scene& scene, const Execution& execution) {
@@ -163,7 +151,7 @@ WallSet walls_of_lattice(const LatticePassages& lattice, const Execution& execut
 WallSet walls_of_maze_bits(const std::string& where, MazeHint maze, std::span<const std::uint64_t> bits,
                            const Execution& execution) {
   const std::uint64_t count = std::uint64_t{maze.rows} * maze.cols;
-  if (maze.rows == 0 || maze.cols == 0 || bits.size() != words_for(count)) {
+  if (maze.rows == 0 || maze.cols == 0 || bits.size() != chunk_count(count, cells_in_word)) {
     throw InputError(where, "expected two bits for each cell of the maze");
   }
   MazeCells cells(maze.rows, maze.cols, execution);

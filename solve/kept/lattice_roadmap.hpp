@@ -30,7 +30,7 @@
 #include "scenes/scene/scene.hpp"
 #include "solve/question/question.hpp"
 #include "solve/question/solve_options.hpp"
-#include "verify/streamed/looked_up_walls.hpp"
+#include "verify/streamed/verify_cells.hpp"
 #include "worlds/plane/maze_world.hpp"
 
 namespace warren {

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <iterator>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -114,17 +113,15 @@ void compare_lattices(const Roadmap& before, const Roadmap& now, UpdateAccount& 
 /// More differences than so many are no change but another world.
 constexpr std::size_t most_changed_places = 4096;
 
-bool same_box(const std::optional<Box>& a, const std::optional<Box>& b) {
-  return a.has_value() == b.has_value() && (!a || (a->min == b->min && a->max == b->max));
-}
-
 /// False where the maps' cells are not the same places, or too many differ.
-bool add_changed_cells(const OccupancyMap& a, const OccupancyMap& b, std::vector<Box>& places) {
+bool add_changed_cells(const OccupancyMap& a, const OccupancyMap& b, std::vector<Box>& places,
+                       const Execution& execution) {
   const bool same_place = a.width() == b.width() && a.height() == b.height() && a.cell == b.cell &&
                           a.origin == b.origin && a.yaw_rad == b.yaw_rad;
   if (!same_place || !a.water.empty() || !b.water.empty()) return false;
   for (std::uint32_t y = 0; y < a.height(); ++y) {
-    if (std::equal(a.blocked.row(y).begin(), a.blocked.row(y).end(), b.blocked.row(y).begin())) continue;
+    execution.check();
+    if (std::ranges::equal(a.blocked.row(y), b.blocked.row(y))) continue;
     for (std::uint32_t x = 0; x < a.width(); ++x) {
       if (a.blocked.test(x, y) == b.blocked.test(x, y)) continue;
       places.push_back(world_box(a, {{1.0 * x, 1.0 * y}, {x + 1.0, y + 1.0}}));
@@ -138,9 +135,10 @@ std::vector<Segment> walls_of(const Scene& scene, const Execution& execution) {
   execution.reserve(scene.walls.size() * sizeof(Segment));
   std::vector<Segment> walls;
   walls.reserve(scene.walls.size());
-  scene.walls.visit([&](auto all) {
-    for (const auto& wall : all) walls.push_back(wall.segment());
-  });
+  for (std::size_t i = 0; i < scene.walls.size(); ++i) {
+    execution.poll(i);
+    walls.push_back(scene.walls.segment(i));
+  }
   return walls;
 }
 
@@ -166,10 +164,17 @@ bool add_changed_shapes(std::vector<Shape> before, std::vector<Shape> now, std::
                         const Execution& execution) {
   const auto less = [](const Shape& a, const Shape& b) { return comes_before(a, b); };
   for (std::vector<Shape>* shapes : {&before, &now}) polled_sort(shapes->begin(), shapes->end(), execution, less);
-  std::vector<Shape> only;
-  std::set_symmetric_difference(before.begin(), before.end(), now.begin(), now.end(), std::back_inserter(only), less);
-  if (only.size() + places.size() > most_changed_places) return false;
-  for (const Shape& shape : only) places.push_back(box_of_shape(shape));
+  auto a = before.begin();
+  auto b = now.begin();
+  for (std::size_t steps = 0; a != before.end() || b != now.end(); ++steps) {
+    execution.poll(steps);
+    const bool is_old = a != before.end() && (b == now.end() || less(*a, *b));
+    const bool is_new = !is_old && (a == before.end() || less(*b, *a));
+    if (is_old || is_new) places.push_back(box_of_shape(is_old ? *a : *b));
+    if (places.size() > most_changed_places) return false;
+    if (!is_new) ++a;
+    if (!is_old) ++b;
+  }
   return true;
 }
 
@@ -177,13 +182,13 @@ bool add_changed_shapes(std::vector<Shape> before, std::vector<Shape> now, std::
 /// meets the same obstacles in both. Nothing where the worlds differ in more than obstacles of the plane: in bounds,
 /// maze, map, solids or, of maps, in size and place; or in too many obstacles. O(n log n) for n obstacles.
 std::optional<std::vector<Box>> changed_places(const Scene& before, const Scene& now, const Execution& execution) {
-  const bool is_framed_alike = same_box(before.bounds, now.bounds) && before.maze == now.maze && !has_solids(before) &&
+  const bool is_framed_alike = before.bounds == now.bounds && before.maze == now.maze && !has_solids(before) &&
                                !has_solids(now) && before.seams.size() == now.seams.size() &&
                                before.map.has_value() == now.map.has_value();
   if (!is_framed_alike) return std::nullopt;
-  if (!before.bounds && !same_box(obstacle_box(before, execution), obstacle_box(now, execution))) return std::nullopt;
+  if (!before.bounds && obstacle_box(before, execution) != obstacle_box(now, execution)) return std::nullopt;
   std::vector<Box> places;
-  if (before.map && !add_changed_cells(*before.map, *now.map, places)) return std::nullopt;
+  if (before.map && !add_changed_cells(*before.map, *now.map, places, execution)) return std::nullopt;
   if (!add_changed_shapes(walls_of(before, execution), walls_of(now, execution), places, execution))
     return std::nullopt;
   if (!add_changed_shapes(outlines_of(before), outlines_of(now), places, execution)) return std::nullopt;
@@ -326,14 +331,10 @@ Roadmap update(const Roadmap& roadmap, Scene now, const Execution& execution, Up
   account->built_anew = !old || next.lattice != nullptr;
   account->edges = edges.free + edges.blocked + edges.unchecked;
   account->edges_checked = built.counters.edges_checked;
-  if (next.lattice != nullptr || !drawn) {
-    account->edges_checked = account->edges;  // all of them were made anew
-  }
-  if (roadmap.lattice != nullptr || next.lattice != nullptr) {
-    compare_lattices(roadmap, next, *account);
-  } else {
-    compare_states(roadmap.arrays.parts(), next.arrays.parts(), execution, *account);
-  }
+  if (next.lattice != nullptr || !drawn) account->edges_checked = account->edges;  // all of them were made anew
+  const bool any_lattice = roadmap.lattice != nullptr || next.lattice != nullptr;
+  any_lattice ? compare_lattices(roadmap, next, *account)
+              : compare_states(roadmap.arrays.parts(), next.arrays.parts(), execution, *account);
   return next;
 }
 

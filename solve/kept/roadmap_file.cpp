@@ -150,8 +150,6 @@ class HeaderReader {
 
 constexpr std::size_t most_checked_whole = std::size_t{64} << 20;  // a few milliseconds
 
-Execution without_progress(const Execution& execution) { return {execution.threads, execution.deadline}; }
-
 constexpr std::array<char, section_alignment> zeros{};
 
 std::vector<SectionPlace> places_of(std::span<const RoadmapSection> sections) {
@@ -178,8 +176,7 @@ std::vector<std::uint64_t> checksums_of(std::span<const RoadmapSection> sections
       blocks.push_back(s.bytes.subspan(at, std::min(checked_block, s.bytes.size() - at)));
     }
   }
-  return parts_of_chunks(blocks.size(), 1, without_progress(execution),
-                         [&](Range r) { return checksum(blocks[r.first]); });
+  return parts_of_chunks(blocks.size(), 1, execution.quiet(), [&](Range r) { return checksum(blocks[r.first]); });
 }
 
 template <class T>
@@ -247,12 +244,8 @@ RoadmapFile::RoadmapFile(const std::string& name, std::string_view bytes_in_memo
 }
 
 void RoadmapFile::check_opened(const Execution& execution) const {
-  if (is_small()) {
-    check_blocks({0, head_.blocks}, without_progress(execution));
-    return;
-  }
   for (const SectionPlace& place : head_.sections) {
-    if (place.blocks() == 1) check_block(place.first_block);
+    if (is_small() || place.blocks() == 1) check_section(place, execution.quiet());
   }
 }
 

@@ -124,14 +124,6 @@ KeptWorld world_inside(const RoadmapFile& file, const Roadmap& roadmap, const Ex
   return {std::move(outline), std::move(make), std::move(look_up)};
 }
 
-void append_graph(const RoadmapParts& parts, std::vector<RoadmapSection>& sections) {
-  sections.push_back(roadmap_section("states", parts.states));
-  sections.push_back(roadmap_section("edge.first", parts.first));
-  sections.push_back(roadmap_section("edge.to", parts.to));
-  sections.push_back(roadmap_section("edge.state", parts.edge_states));
-  sections.push_back(roadmap_section("component", parts.component));
-}
-
 /// The lattice is that of the maze, of prm, and of a body that plans on it.
 void check_lattice_of(const Roadmap& roadmap, const std::string& name) {
   const auto& maze = roadmap.world.outline().maze;
@@ -209,9 +201,12 @@ std::string table_hash(const RobotSpec& robot, const Execution& execution) {
   return fmt::format("{:016x}", checksum(std::as_bytes(std::span(table.bytes()))));
 }
 
-std::uint64_t component_count(const RoadmapArrays& arrays) {
+std::uint64_t component_count(const RoadmapArrays& arrays, const Execution& execution) {
   std::uint64_t count = 0;
-  for (VertexId v = 0; v < arrays.component.size(); ++v) count += arrays.component[v] == v ? 1 : 0;
+  for (VertexId v = 0; v < arrays.component.size(); ++v) {
+    execution.poll(v);
+    count += arrays.component[v] == v ? 1 : 0;
+  }
   return count;
 }
 
@@ -379,15 +374,13 @@ std::string meta_json(const Roadmap& roadmap, const Execution& execution) {
     const LatticeSize size = roadmap.lattice->passages().size();
     object.add_json("lattice", json_list(std::span<const std::uint32_t>(std::array{size.rows, size.cols})));
   } else {
-    object.add("components", component_count(roadmap.arrays));
+    object.add("components", component_count(roadmap.arrays, execution));
   }
   return object.closed() + "\n";
 }
 
 /// The lattice that meta names; 0 x 0 where it names none.
-LatticeSize lattice_of(const RoadmapFile& file, const Execution& execution) {
-  const std::string where = fmt::format("{}: section meta", file.name());
-  const Json json = parsed(where, roadmap_meta(file, execution));
+LatticeSize lattice_of(const std::string& where, const Json& json) {
   const auto found = json.find("lattice");
   if (found == json.end()) return {};
   const auto is_side = [](const Json& n) { return n.is_number_unsigned() && n.get<std::uint64_t>() <= 0xffffffff; };
@@ -397,10 +390,14 @@ LatticeSize lattice_of(const RoadmapFile& file, const Execution& execution) {
   return {(*found)[0].get<std::uint32_t>(), (*found)[1].get<std::uint32_t>()};
 }
 
-/// Fills in all of the roadmap but scene and arrays, which tell their sizes. Throws InputError that names `where`.
-void read_meta(const std::string& where, std::string_view text, Roadmap& roadmap, const Execution& execution) {
-  const Json json = parsed(where, text);
+/// All that `meta` says of a roadmap, and its lattice: no scene, and of arrays their sizes. Throws InputError that
+/// names the section.
+Roadmap described(const RoadmapFile& file, const Execution& execution) {
+  refuse_unknown_sections(file);
+  const std::string where = fmt::format("{}: section meta", file.name());
+  const Json json = parsed(where, roadmap_meta(file, execution));
   const MetaReader meta(where, json);
+  Roadmap roadmap;
   if (meta.text("schema") != schema) meta.fail("schema", schema);
   Scene named;
   named.source = meta.text("source");
@@ -429,14 +426,11 @@ void read_meta(const std::string& where, std::string_view text, Roadmap& roadmap
   roadmap.samples = meta.whole("drawn");
   roadmap.arrays.dimension = meta.small("dimension");
   roadmap.arrays.directed = json.value("directed", Json(false)) == Json(true);
-}
-
-Roadmap described(const RoadmapFile& file, const Execution& execution) {
-  refuse_unknown_sections(file);
-  Roadmap roadmap;
-  read_meta(fmt::format("{}: section meta", file.name()), roadmap_meta(file, execution), roadmap, execution);
-  if (hash_number(roadmap.world_hash) == file.header().world_hash) return roadmap;
-  throw InputError(file.name(), "header and meta name different worlds");
+  if (hash_number(roadmap.world_hash) != file.header().world_hash) {
+    throw InputError(file.name(), "header and meta name different worlds");
+  }
+  if (has_lattice(file)) roadmap.lattice = read_lattice(file, lattice_of(where, json), execution);
+  return roadmap;
 }
 
 }  // namespace
@@ -464,7 +458,14 @@ void write_roadmap(const Roadmap& roadmap, OutputFile& file, const Execution& ex
   HeldNumbers held;
   std::vector<RoadmapSection> sections{roadmap_section("meta", std::span<const char>(meta))};
   if (with_world) append_world_sections(roadmap.world.whole(execution), lattice, held, sections, execution);
-  roadmap.lattice != nullptr ? append_lattice_sections(*roadmap.lattice, sections) : append_graph(parts, sections);
+  if (roadmap.lattice != nullptr) {
+    append_lattice_sections(*roadmap.lattice, sections);
+  } else {
+    sections.insert(sections.end(),
+                    {roadmap_section("states", parts.states), roadmap_section("edge.first", parts.first),
+                     roadmap_section("edge.to", parts.to), roadmap_section("edge.state", parts.edge_states),
+                     roadmap_section("component", parts.component)});
+  }
   append_hierarchy_sections(roadmap.arrays.hierarchy, held, sections, execution);
   static_assert(sizeof("warren " WARREN_VERSION) - 1 <= sizeof(FixedHeader::writer));
   const RoadmapFileHeader header{.world_hash = hash_number(roadmap.world_hash),
@@ -475,8 +476,8 @@ void write_roadmap(const Roadmap& roadmap, OutputFile& file, const Execution& ex
 
 void check_roadmap(const RoadmapFile& file, const Execution& execution) {
   const Roadmap roadmap = described(file, execution);
-  if (has_lattice(file)) {
-    check_lattice(file, *read_lattice(file, lattice_of(file, execution), execution), execution);
+  if (roadmap.lattice != nullptr) {
+    check_lattice(file, *roadmap.lattice, execution);
   } else {
     read_hierarchy(file, checked_parts(file, roadmap, execution).vertex_count(), execution);
   }
@@ -485,7 +486,6 @@ void check_roadmap(const RoadmapFile& file, const Execution& execution) {
 Roadmap read_roadmap(std::unique_ptr<RoadmapFile> opened, const Execution& execution, std::optional<Scene> world) {
   const RoadmapFile& file = *opened;
   Roadmap roadmap = described(file, execution);
-  if (has_lattice(file)) roadmap.lattice = read_lattice(file, lattice_of(file, execution), execution);
   roadmap.world =
       world ? given_world(file, std::move(*world), roadmap, execution) : world_inside(file, roadmap, execution);
   if (file.header().recipe_hash != hash_of(recipe_json(roadmap, execution))) {

@@ -12,7 +12,7 @@
 
 #include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
-#include "planners/roadmap/milestones.hpp"
+#include "planners/roadmap/sampler.hpp"
 #include "scenes/files/npy_io.hpp"
 #include "scenes/text/json_text.hpp"
 #include "solve/kept/export_roadmap.hpp"
@@ -44,6 +44,15 @@ std::vector<std::string> state_names(unsigned dimension) {
 constexpr bool is_in_plane(std::size_t dimension) { return dimension == 2 || dimension == 3; }
 
 using ExportedState = std::span<const double>;
+
+/// How often an undirected edge is written. Directed ones are written as they are.
+enum class EdgeWays : std::uint8_t { once, both };
+
+struct ExportedEdge {
+  std::uint64_t number;  ///< in the order of writing, from 0
+  VertexId from, to;
+  EdgeState state;
+};
 
 /// The edges that an export writes, in the order of their rows, numbered from 0: what the formats share. A first pass
 /// over the states of the ends counts them in blocks, so that heads can say how many follow, and any block can be
@@ -89,20 +98,16 @@ class ExportedEdgesView {
                      "the length of an edge that is exported must be a finite number, zero or more",
                      fmt::format("{}", length_(edge.from, edge.to)));
   }
-  /// The largest length; 0 without edges. Throws for the first edge that length() throws for.
+  /// The largest length, 0 without edges; those that length() throws for don't count.
   double longest(const Execution& execution) const {
-    std::vector<double> longest_of(chunk_count(ends(), grain));
-    for_chunks(ends(), grain, execution, [&](Range range) {
-      double& longest = longest_of[range.first / grain];
-      visit(range, [&](const ExportedEdge& edge) { longest = std::max(longest, length_or_infinity(edge)); });
+    const std::vector<double> of_blocks = parts_of_chunks(ends(), grain, execution, [&](Range range) {
+      double longest = 0;
+      visit(range, [&](const ExportedEdge& edge) {
+        if (const double length = length_or_infinity(edge); length < infinity) longest = std::max(longest, length);
+      });
+      return longest;
     });
-    double longest = 0;
-    for (std::size_t block = 0; block < longest_of.size(); ++block) {
-      const Range range{block * grain, std::min(ends(), (block + 1) * grain)};
-      if (longest_of[block] == infinity) visit(range, [&](const ExportedEdge& edge) { length(edge); });  // throws
-      longest = std::max(longest, longest_of[block]);
-    }
-    return longest;
+    return of_blocks.empty() ? 0 : *std::ranges::max_element(of_blocks);
   }
 
   /// Calls body(ExportedEdge) for what is written of these ends: one block, as for_chunks with this grain gives them.
@@ -113,30 +118,12 @@ class ExportedEdgesView {
       if (is_written(from, to, state)) body(ExportedEdge{number++, from, to, state});
     });
   }
-  /// Calls body(number) for each vertex of the range: the number of the first edge from it or from a later one, so for
-  /// vertex_count() all of them. Only where each end is written or left out by its state: not with EdgeWays::once.
-  template <class Body>
-  void visit_rows(Range vertices, const Body& body) const {
-    std::size_t end = 0;
-    std::uint64_t number = 0;
-    for (std::size_t v = vertices.first; v < vertices.last; ++v) {
-      const std::size_t first = parts_.first.empty() ? 0 : parts_.first[v];
-      if (v == vertices.first || first / grain != end / grain) {  // numbers are counted to the blocks' beginnings
-        end = first / grain * grain;
-        number = numbers_[first / grain];
-      }
-      for (; end < first; ++end) number += is_kept(parts_.state_of_end(end)) ? 1 : 0;
-      body(number);
-    }
-  }
 
  private:
   static constexpr double infinity = std::numeric_limits<double>::infinity();
-  bool is_kept(EdgeState state) const {
-    return state == EdgeState::free || (with_unchecked_ && state == EdgeState::unchecked);
-  }
   bool is_written(VertexId from, VertexId to, EdgeState state) const {
-    return (every_end_ || from < to) && is_kept(state);
+    const bool is_kept = state == EdgeState::free || (with_unchecked_ && state == EdgeState::unchecked);
+    return is_kept && (every_end_ || from < to);
   }
   double length_or_infinity(const ExportedEdge& edge) const {
     const bool turned = !parts_.directed && edge.from > edge.to;  // so that both ways are equally long, to the bit
@@ -145,17 +132,12 @@ class ExportedEdgesView {
   }
   template <class Body>
   void visit_ends(Range ends, const Body& body) const {
-    VertexId from = 0;
+    const auto behind = std::upper_bound(parts_.first.begin() + 1, parts_.first.end(), ends.first);
+    auto from = static_cast<VertexId>(behind - parts_.first.begin() - 1);
     for (std::size_t end = ends.first; end < ends.last; ++end) {
-      from = row_of(end, from);
+      while (end >= parts_.first[from + 1]) ++from;
       body(from, parts_.to[end], parts_.state_of_end(end));
     }
-  }
-  /// The first vertex, not before v, whose ends reach beyond this one.
-  VertexId row_of(std::size_t end, VertexId v) const {
-    if (end < parts_.first[v + 1]) return v;
-    const auto after = parts_.first.begin() + v + 1;
-    return static_cast<VertexId>(std::upper_bound(after, parts_.first.end(), end) - parts_.first.begin() - 1);
   }
   /// Of lines, not of edges.
   ExportAccount tally(Range ends) const {
@@ -240,16 +222,12 @@ const ExportFormat& format_of(const std::string& path) {
 ExportedState coordinates(ExportedState state) { return is_in_plane(state.size()) ? state.first(2) : state; }
 
 double largest_of_states(const RoadmapParts& parts, const Execution& execution) {
-  std::vector<double> largest_of(chunk_count(parts.vertex_count(), vertices_a_piece));
-  for_chunks(parts.vertex_count(), vertices_a_piece, execution, [&](Range range) {
-    double& largest = largest_of[range.first / vertices_a_piece];
-    for (std::size_t v = range.first; v < range.last; ++v) {
-      for (const double x : coordinates(parts.state(static_cast<VertexId>(v))))
-        largest = std::max(largest, std::abs(x));
-    }
-  });
-  const auto largest = std::ranges::max_element(largest_of);
-  return largest == largest_of.end() ? 0 : *largest;
+  double largest = 0;
+  for (VertexId v = 0; v < parts.vertex_count(); ++v) {
+    execution.poll(v);
+    for (const double x : coordinates(parts.state(v))) largest = std::max(largest, std::abs(x));
+  }
+  return largest;
 }
 
 /// By Nav2.
@@ -303,13 +281,19 @@ class NpzWriter {
   void write_indices() {
     const std::string_view type = sizeof(Index) == 4 ? "<i4" : "<i8";
     of_edges<Index>("indices", type, [](const ExportedEdge& edge) { return static_cast<Index>(edge.to); });
-    begin("indptr", type, {to_.parts.vertex_count() + 1}, sizeof(Index));
-    constexpr std::size_t grain = vertices_a_piece / 2;  // up to a block of ends is counted for each
-    write_in_pieces(zip_, to_.parts.vertex_count() + 1, grain, to_.execution, [&](Range range, std::string& bytes) {
-      to_.edges.visit_rows(range,
-                           [&](std::uint64_t number) { append_little_endian(bytes, static_cast<Index>(number)); });
-    });
-    zip_.end();
+    const std::size_t vertices = to_.parts.vertex_count();
+    RawVector<Index> rows;  // of each vertex the number of the first edge from it or from a later one; then of all
+    to_.execution.reserve((vertices + 1) * sizeof(Index));
+    rows.reserve(vertices + 1);
+    for (std::size_t first = 0; first < to_.edges.ends(); first += to_.edges.grain) {
+      to_.execution.check();
+      to_.edges.visit({first, std::min(first + to_.edges.grain, to_.edges.ends())}, [&](const ExportedEdge& edge) {
+        if (rows.size() <= edge.from) rows.resize(std::size_t{edge.from} + 1, static_cast<Index>(edge.number));
+      });
+    }
+    rows.resize(vertices + 1, static_cast<Index>(to_.edges.count()));
+    begin("indptr", type, {rows.size()}, sizeof(Index));
+    of_span(std::span<const Index>(rows));
   }
   void begin(const std::string& name, std::string_view type, const Shape& shape, std::uint64_t bytes_a_number) {
     std::uint64_t bytes = bytes_a_number;

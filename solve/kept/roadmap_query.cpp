@@ -12,10 +12,9 @@
 #include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
 #include "planners/graph/roadmap_arrays.hpp"
-#include "planners/roadmap/milestones.hpp"
+#include "planners/roadmap/sampler.hpp"
 #include "planners/shorten/taut_path.hpp"
 #include "solve/explain/blocked_end.hpp"
-#include "solve/kinds/lower_bound.hpp"
 #include "solve/kinds/question_of_pose.hpp"
 #include "solve/kinds/solve_steps.hpp"
 #include "verify/streamed/verify_cells.hpp"
@@ -51,34 +50,6 @@ void refuse_search(const RoadmapSearchFields& how) {
                    fmt::format("leads through an obstacle; build it anew: {}", error.what()));
 }
 
-void shorten(Answer& answer, const Scene& scene, const WallProblem& problem, const Execution& execution) {
-  const StageTimer timer(execution, "optimise", answer.seconds.optimise, answer.path.size());
-  const MazeWorld world(scene, problem.reach(), execution);
-  answer.raw_length = path_length(answer.path, MazeWorld::distance);
-  answer.path = taut_path(world.walls(), answer.path, world.planning_clearance(), execution);
-}
-
-/// What judge() says, while something else is done with the same answer, which is not changed meanwhile. seconds: those
-/// of the judge alone are added.
-template <class Judge>
-Verification judged_beside(const std::function<void(const Answer&)>& beside, const Answer& answer,
-                           const Execution& execution, double& seconds, const Judge& judge) {
-  const auto timed = [&] {
-    const StageTimer timer(execution, "verify", seconds, answer.path.size());
-    return judge();
-  };
-  if (!beside) return timed();
-  Verification verdict;
-  for_chunks(2, 1, execution.quiet(), [&](Range r) {
-    if (r.first == 0) {
-      beside(answer);
-    } else {
-      verdict = timed();
-    }
-  });
-  return verdict;
-}
-
 Question question_to_one(const Roadmap& roadmap, const std::vector<double>& start, const std::vector<double>& goal) {
   if (goal.empty() && !roadmap.world.outline().other_goals.empty()) {
     throw UsageError("@goal: the world has several, and a kept roadmap is asked for one; say which");
@@ -102,10 +73,14 @@ std::optional<CellId> lattice_cell(const RouteIndex& index, Vec2 p) {
 
 class LatticeQuestion {
  public:
-  /// `query`: of the index. All are referred to. Throws Stopped.
-  LatticeQuestion(const WallsNearEnds& near, const WallProblem& problem, const RouteIndex& index, RouteQuery& query,
-                  const Execution& execution)
-      : near_(near), problem_(problem), index_(index), query_(query), execution_(execution) {
+  /// `query`: of the index, or none yet. All are referred to. Throws Stopped.
+  LatticeQuestion(const WallsNearEnds& near, const WallProblem& problem, const RouteIndex& index,
+                  std::optional<RouteQuery>& query, const Execution& execution)
+      : near_(near),
+        problem_(problem),
+        index_(index),
+        query_(query ? *query : query.emplace(index)),
+        execution_(execution) {
     if (!link(0, problem.start)) {
       outcome_ = Outcome::start_blocked;
     } else if (!link(1, problem.goal)) {
@@ -136,10 +111,12 @@ class LatticeQuestion {
   }
 
  private:
+  using Link = std::pair<double, CellId>;  // how long the motion to the cell's milestone is
+
   /// False where the body does not fit there.
   bool link(std::size_t end, Vec2 p) {
     if (const auto cell = lattice_cell(index_, p)) {  // every other link leads over a longer way
-      links_[end].push_back({*cell, 0.0});
+      links_[end].emplace_back(0.0, *cell);
       return true;
     }
     bool is_free = false;
@@ -150,7 +127,7 @@ class LatticeQuestion {
     auto query = world.make_query();
     if (!world.is_free(p, query)) return false;
     const LatticeSize size = index_.passages().size();
-    std::vector<std::pair<double, CellId>> near;
+    std::vector<Link> near;
     const auto middle_x = static_cast<std::int64_t>(std::clamp(std::round(p.x), 1.0, static_cast<double>(size.cols)));
     const auto middle_y = static_cast<std::int64_t>(std::clamp(std::round(p.y), 1.0, static_cast<double>(size.rows)));
     for (std::int64_t y = std::max<std::int64_t>(1, middle_y - widest_look);
@@ -164,23 +141,22 @@ class LatticeQuestion {
     }
     std::sort(near.begin(), near.end());
     constexpr std::size_t farthest = 256;
-    for (std::size_t i = 0; i < std::min(near.size(), farthest); ++i) {
-      const auto [length, cell] = near[i];
+    near.resize(std::min(near.size(), farthest));
+    for (const auto& [length, cell] : near) {
       if (length > 1.0 && !links_[end].empty()) break;
-      const Vec2 at = lattice_point(size, cell);
-      if (world.is_free_motion(p, at, query)) links_[end].push_back({cell, length});
+      if (world.is_free_motion(p, lattice_point(size, cell), query)) links_[end].emplace_back(length, cell);
     }
     return true;
   }
   void join() {
     double best = std::numeric_limits<double>::infinity();
-    for (const Link& from : links_[0]) {
-      for (const Link& to : links_[1]) {
-        const auto steps = query_.length(from.cell, to.cell);
-        if (!steps || from.length + *steps + to.length >= best) continue;
-        best = from.length + *steps + to.length;
-        from_ = from.cell;
-        to_ = to.cell;
+    for (const auto& [before, from] : links_[0]) {
+      for (const auto& [behind, to] : links_[1]) {
+        const auto steps = query_.length(from, to);
+        if (!steps || before + *steps + behind >= best) continue;
+        best = before + *steps + behind;
+        from_ = from;
+        to_ = to;
       }
     }
     const double straight = distance(problem_.start, problem_.goal);
@@ -196,10 +172,6 @@ class LatticeQuestion {
     length_ = best;
   }
 
-  struct Link {
-    CellId cell;
-    double length;
-  };
   const WallsNearEnds& near_;
   const WallProblem& problem_;
   const RouteIndex& index_;
@@ -221,13 +193,11 @@ struct RoadmapQuery::Opened {
       : any(question_of(roadmap, anywhere(roadmap), anywhere(roadmap))),
         solver(choose_solver(roadmap.options, roadmap.world.whole(execution), any)),
         copy(planned_copy(roadmap.world.whole(execution), any, solver.planner, execution)),
-        planned(copy ? *copy : roadmap.world.whole(execution)),
-        session(solver.kind->open(request_of(roadmap, execution, questions), roadmap.arrays, roadmap.rule)) {}
-  SolveRequest request_of(const Roadmap& roadmap, const Execution& execution, Questions questions) const {
+        planned(copy ? *copy : roadmap.world.whole(execution)) {
     SolveRequest request{roadmap.options, planned, any, solver.planner, execution};
     request.many = questions != Questions::one;
     request.samples = roadmap.samples;
-    return request;
+    session = solver.kind->open(request, roadmap.arrays, roadmap.rule);
   }
   Question any;
   ChosenSolver solver;
@@ -355,12 +325,11 @@ Answer RoadmapQuery::ask_lattice(const Question& question, const RoadmapSearchFi
   answer.search.clear();
   answer.pipeline.clear();
   answer.figures.push_back({"index", std::string("route")});
-  if (!scratch.route) scratch.route.emplace(*roadmap_.lattice);
   try {
     answer_within_limits(answer, [&] {
       {
         const StageTimer timer(execution, "search", answer.seconds.search);
-        const LatticeQuestion asked(walls_->near_ends, problem, *roadmap_.lattice, *scratch.route, execution);
+        const LatticeQuestion asked(walls_->near_ends, problem, *roadmap_.lattice, scratch.route, execution);
         answer.outcome = asked.outcome();
         answer.roadmap.milestones = count_states(roadmap_) + 2;
         if (answer.outcome == Outcome::solved) answer.path = asked.path();
@@ -386,13 +355,25 @@ void RoadmapQuery::settle_and_verify(Answer& answer, const WallProblem& problem,
   answer.world = account_of(judge.scene, roadmap_.world_hash);
   if (judge.cells != nullptr) answer.world.walls = cells_of_lattice(execution)->wall_count;
   if (optimise && answer.outcome == Outcome::solved) {
-    shorten(answer, roadmap_.world.whole(execution), problem, execution);
+    const Scene& whole = roadmap_.world.whole(execution);
+    const StageTimer timer(execution, "optimise", answer.seconds.optimise, answer.path.size());
+    const MazeWorld world(whole, problem.reach(), execution);
+    answer.raw_length = path_length(answer.path, MazeWorld::distance);
+    answer.path = taut_path(world.walls(), answer.path, world.planning_clearance(), execution);
   }
   answer.outcome = judge.settled(answer.outcome);
   if (answer.outcome != Outcome::solved) return;
-  double seconds = 0.0;
-  const Verification verdict = judged_beside(scratch.beside_judge, answer, execution, seconds,
-                                             [&] { return judge.judged(answer.path, verify_options(problem)); });
+  double seconds = 0.0;  // of the judge alone; the answer does not change while somebody else looks at it
+  Verification verdict;
+  const auto judge_path = [&] {
+    const StageTimer timer(execution, "verify", seconds, answer.path.size());
+    verdict = judge.judged(answer.path, verify_options(problem));
+  };
+  const auto beside = [&](Range r) {
+    if (r.first == 1) return judge_path();
+    scratch.beside_judge(answer);
+  };
+  scratch.beside_judge ? for_chunks(2, 1, execution.quiet(), beside) : judge_path();
   answer.seconds.verify += seconds;
   take_verdict(answer, verdict);
 }
@@ -407,10 +388,8 @@ LengthAnswer RoadmapQuery::length_within(const std::vector<double>& start, const
     return {answer.outcome, answer.length};
   }
   refuse_search(how);
-  const Question question = question_to_one(roadmap_, start, goal);
-  if (!scratch.route) scratch.route.emplace(*roadmap_.lattice);
-  const WallProblem problem = wall_problem(roadmap_.world.outline(), question);
-  const LatticeQuestion asked(walls_->near_ends, problem, *roadmap_.lattice, *scratch.route, execution);
+  const WallProblem problem = wall_problem(roadmap_.world.outline(), question_to_one(roadmap_, start, goal));
+  const LatticeQuestion asked(walls_->near_ends, problem, *roadmap_.lattice, scratch.route, execution);
   return {asked.outcome(), asked.length()};
 }
 

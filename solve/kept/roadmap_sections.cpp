@@ -10,7 +10,7 @@
 
 #include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
-#include "scenes/files/scene_io.hpp"
+#include "scenes/files/plane_formats_io.hpp"
 #include "scenes/text/input_file_io.hpp"
 #include "solve/kept/lattice_roadmap.hpp"
 
@@ -103,6 +103,7 @@ Bitmap read_bits(const RoadmapFile& file, std::string_view name, std::uint32_t w
   if (words->size() != bits.words().size()) refuse(file, name, "expected a bit for each cell of the map");
   const std::size_t stride = height == 0 ? 0 : words->size() / height;
   for (std::uint32_t y = 0; y < height; ++y) {
+    execution.check();
     std::copy_n(words->begin() + static_cast<std::ptrdiff_t>(y * stride), stride, bits.row(y).begin());
     if (width % Bitmap::word_bits == 0) continue;
     if (bits.row(y).back() >> (width % Bitmap::word_bits) != 0) refuse(file, name, "expected zeros beyond each row");

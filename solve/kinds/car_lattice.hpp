@@ -91,13 +91,9 @@ class CarLattice {
   std::uint32_t headings() const { return motions_.headings(); }
   std::span<const LatticeMotion> motions_from(std::uint32_t heading) const { return motions_.from(heading); }
   bool is_free(Cell from, const LatticeMotion& motion) {
-    if (stamps_) return stamps_->is_free(*free_, from, motion);
-    const Se2 end = pose_of(end_of(from, motion), motion.to);
-    Se2 begin = pose_of(from, 0);
-    double turn = 0.0;
-    for (const SteeringPiece& piece : motion.word.used()) turn += side_of(piece.steer) * piece.length;
-    begin.theta = wrapped_angle(end.theta - turn);
-    return body_.is_free_curve({begin, end, motion.word, radius_}, query_);
+    const bool free = stamps_ ? stamps_->is_free(*free_, from, motion) : is_free_curve(from, motion);
+    free_motions_ += free ? 1 : 0;
+    return free;
   }
   /// What places make dear: nearness by the mean of both ends, areas by places a quarter of a cell apart.
   std::uint64_t extra(Cell from, std::uint32_t heading, const LatticeMotion& motion) {
@@ -198,9 +194,22 @@ class CarLattice {
     }
     return fewer;
   }
-  std::uint64_t refused() const { return query_.refused; }
+  /// Of the motions that were asked about.
+  std::uint64_t free_motions() const { return free_motions_; }
+  std::uint64_t refused_motions() const { return refused_motions_; }
 
  private:
+  bool is_free_curve(Cell from, const LatticeMotion& motion) {
+    const Se2 end = pose_of(end_of(from, motion), motion.to);
+    Se2 begin = pose_of(from, 0);
+    double turn = 0.0;
+    for (const SteeringPiece& piece : motion.word.used()) turn += side_of(piece.steer) * piece.length;
+    begin.theta = wrapped_angle(end.theta - turn);
+    const std::uint64_t before = query_.refused;
+    const bool free = body_.is_free_curve({begin, end, motion.word, radius_}, query_);
+    refused_motions_ += query_.refused - before;
+    return free;
+  }
   static Cell end_of(Cell from, const LatticeMotion& motion) {
     return {static_cast<std::uint32_t>(std::int64_t{from.x} + motion.dx),
             static_cast<std::uint32_t>(std::int64_t{from.y} + motion.dy)};
@@ -290,6 +299,7 @@ class CarLattice {
       const std::uint32_t top = within(goal.y + join_reach_ + 1.0, height_);
       const std::uint32_t right = within(goal.x + join_reach_ + 1.0, width_);
       for (std::uint32_t y = within(goal.y - join_reach_, height_); y < top; ++y) {
+        execution_.check();
         for (std::uint32_t x = within(goal.x - join_reach_, width_); x < right; ++x) {
           const double apart = distance(Vec2{1.0 * x, 1.0 * y}, goal);
           if (apart <= join_reach_) field_->seed({x, y}, apart * (1.0 - 1e-9));
@@ -324,10 +334,9 @@ class CarLattice {
         execution_.check();
         for (std::uint32_t i = 0; i <= 2 * quarter; ++i) {
           const std::uint32_t k = (nearest + headings() - quarter + i) % headings();
-          LatticeShot priced;
           const Cell cell = cell_at(x, y);
           const SteeringWord word = shortest_(start, pose_of(cell, k), radius_);
-          const std::uint64_t cost = curve_cost(word, 0, priced);
+          const std::uint64_t cost = motions_.cost_of(word);
           const std::int8_t gear = last_gear(word);
           if (cost > most) continue;
           starts_.push_back({cell, k, cost + extra(curve(start, pose_of(cell, k))), gear});
@@ -389,6 +398,8 @@ class CarLattice {
   std::uint32_t height_ = 0;
   MotionSet motions_;
   CarBody::Query query_;
+  std::uint64_t free_motions_ = 0;
+  std::uint64_t refused_motions_ = 0;
   const PosePrices* prices_;
   RawVector<float> dear_;              // what nearness costs at states, a unit of length; below 0: nobody has asked
   std::optional<FreeCells> free_;      // maps

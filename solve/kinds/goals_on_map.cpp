@@ -21,11 +21,11 @@ namespace {
 
 class Choosing {
  public:
-  Choosing(WaysOverCells& ways, const OccupancyMap& map, const WallProblem& problem, bool open_end)
-      : ways_(ways), map_(map), problem_(problem), rule_(problem.rule), open_end_(open_end) {
-    goals_.push_back(problem.goal);
+  Choosing(WaysOverCells& ways, bool open_end)
+      : ways_(ways), problem_(ways.problem()), rule_(problem_.rule), open_end_(open_end) {
+    goals_.push_back(problem_.goal);
     for (const std::vector<double>& other : rule_.others) goals_.push_back({other[0], other[1]});
-    choice_.goal = problem.goal;
+    choice_.goal = problem_.goal;
   }
 
   GoalChoice chosen(std::span<const std::vector<double>> via) {
@@ -45,9 +45,9 @@ class Choosing {
 
  private:
   bool is_free(Vec2 place) const {
-    const auto cell = cell_at(map_, place);
-    return cell &&
-           ((starts_on_water(map_, problem_.start) && starts_on_water(map_, place)) || ways_.stands_free(place));
+    const OccupancyMap& map = ways_.map();
+    return cell_at(map, place) &&
+           ((starts_on_water(map, problem_.start) && starts_on_water(map, place)) || ways_.stands_free(place));
   }
   void check_stop(std::string_view option, std::string_view noun, std::size_t number, Vec2 place) const {
     if (is_free(place)) return;
@@ -62,17 +62,11 @@ class Choosing {
       return true;
     }
     for (std::size_t i = 0; i < goals_.size(); ++i) {
-      std::vector<WaysOverCells::Entry> more;
       if (rule_.region) {
-        more = ways_.region(goals_[i], *rule_.region, i);
+        ways_.add_region(ends_, goals_[i], *rule_.region, i);
       } else if (is_free(goals_[i])) {
-        more = ways_.entries(goals_[i], i);
+        std::ranges::copy(ways_.entries(goals_[i], i), std::back_inserter(ends_));
       }
-      if (ends_.empty()) {
-        ends_ = std::move(more);
-        continue;
-      }
-      ends_.insert(ends_.end(), more.begin(), more.end());
     }
     first_ = stay_in_region();
     if (!first_) first_ = ways_.cheapest(problem_.start, ends_);
@@ -83,7 +77,7 @@ class Choosing {
   /// Whoever starts in a region is there.
   std::optional<WaysOverCells::Way> stay_in_region() const {
     const Vec2 start = problem_.start;
-    const auto own = cell_at(map_, start);
+    const auto own = cell_at(ways_.map(), start);
     for (std::size_t i = 0; own && rule_.region && i < goals_.size(); ++i) {
       if (distance(start, goals_[i]) <= *rule_.region) return WaysOverCells::Way{{*own}, 0, start, {*own, 0, start, i}};
     }
@@ -189,7 +183,6 @@ class Choosing {
   }
 
   WaysOverCells& ways_;
-  const OccupancyMap& map_;
   const WallProblem& problem_;
   const GoalRule& rule_;
   bool open_end_;
@@ -241,14 +234,11 @@ OccupancyMap with_cells(const OccupancyMap& map, const Bitmap& blocked) {
 
 class Routes {
  public:
-  using LegParts = std::function<PriceParts(Vec2, Vec2)>;
-
-  Routes(const RouteRule& route, WaysOverCells& ways, Vec2 goal, const DistanceField* distances, const LegParts& parts,
+  Routes(const RouteRule& route, WaysOverCells& ways, Vec2 goal, const DistanceField* distances,
          const Execution& execution)
       : ways_(ways),
         map_(ways.map()),
         problem_(ways.problem()),
-        parts_(parts),
         execution_(execution),
         stretch_(route.stretch.value_or(usual_stretch)),
         hole_(route.hole.value_or(2.0 * problem_.robot.radius)),
@@ -362,12 +352,10 @@ class Routes {
     if (!verdict.verified) return std::nullopt;
     path.length = verdict.length;
     path.min_clearance = verdict.min_clearance;
-    if (parts_) {
-      for (std::size_t i = 1; i < path.path.size(); ++i) {
-        const PriceParts leg = parts_(path.path[i - 1], path.path[i]);
-        path.price.clearance += leg.clearance;
-        path.price.areas += leg.areas;
-      }
+    for (std::size_t i = 1; ways_.is_priced() && i < path.path.size(); ++i) {
+      const PriceParts leg = ways_.parts(path.path[i - 1], path.path[i]);
+      path.price.clearance += leg.clearance;
+      path.price.areas += leg.areas;
     }
     path.cost = path.length + path.price.sum();
     return path;
@@ -392,7 +380,6 @@ class Routes {
   WaysOverCells& ways_;
   const OccupancyMap& map_;
   WallProblem problem_;  // its goal is the one that is reached
-  const LegParts& parts_;
   const Execution& execution_;
   double stretch_;
   double hole_;
@@ -405,9 +392,8 @@ class Routes {
 
 }  // namespace
 
-GoalChoice choose_goal(WaysOverCells& ways, const OccupancyMap& map, const WallProblem& problem,
-                       std::span<const std::vector<double>> via, bool open_end) {
-  return Choosing(ways, map, problem, open_end).chosen(via);
+GoalChoice choose_goal(WaysOverCells& ways, std::span<const std::vector<double>> via, bool open_end) {
+  return Choosing(ways, open_end).chosen(via);
 }
 
 std::optional<double> bound_of_choice(Vec2 start, Vec2 goal, const GoalRule& rule, bool open_end, double off) {
@@ -432,7 +418,7 @@ void take_bound_of_choice(Answer& answer, std::optional<double> bound) {
 }
 
 void take_alternatives(Answer& answer, const RouteRule& route, WaysOverCells& ways, const DistanceField* distances,
-                       const std::function<PriceParts(Vec2, Vec2)>& parts, const Execution& execution) {
+                       const Execution& execution) {
   const GoalRule& rule = ways.problem().rule;
   if (!rule.visit.empty() || rule.back || rule.region) {
     throw UsageError(
@@ -441,7 +427,7 @@ void take_alternatives(Answer& answer, const RouteRule& route, WaysOverCells& wa
   const Vec2 goal = answer.path.back();
   if (ways.problem().start == goal) return;
   const StageTimer timer(execution, "alternatives", answer.seconds.optimise, ways.map().blocked.size());
-  Routes routes(route, ways, goal, distances, parts, execution);
+  Routes routes(route, ways, goal, distances, execution);
   std::vector<AlternativePath> paths = routes.find(std::size_t{1} + *route.alternatives, answer.path);
   answer.counters.expanded += routes.expanded();
   if (paths.empty()) return;
@@ -451,7 +437,7 @@ void take_alternatives(Answer& answer, const RouteRule& route, WaysOverCells& wa
   answer.length = own.length;
   answer.min_clearance = own.min_clearance;
   answer.passed = std::move(own.passed);
-  if (parts) {
+  if (ways.is_priced()) {
     answer.price = own.price;
     answer.cost = own.cost;
   }

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
@@ -29,30 +28,32 @@
 
 namespace warren {
 
-/// What ways over the cells cost beyond their length; empty: nothing.
-struct LegPrices {
-  std::function<double(Vec2, Vec2)> cost;  ///< of a straight leg, its length included; world coordinates and units
-  StepWeights::Weigh step;                 ///< between the middles of cells, rounded up
-};
-
 /// Ways of a point or disc over the cells of a map, and how the places beside the middles are joined to them. One
 /// thread.
 class WaysOverCells {
  public:
   /// Refers to map and problem, and to what is kept of solves before, where something is. closed: cells that the body
-  /// may not touch; wide: where its middle may not be.
+  /// may not touch; wide: where its middle may not be. prices, with what asks them: of ways; nullptr: they cost their
+  /// length.
   WaysOverCells(const OccupancyMap& map, const WallProblem& problem, const Bitmap& closed, const Bitmap& wide,
-                Diagonal diagonal, LegPrices prices, const Execution& execution, KeptWays* kept = nullptr)
+                Diagonal diagonal, const MapPrices* prices, MapPrices::Scratch* scratch, const Execution& execution,
+                KeptWays* kept = nullptr)
       : map_(map),
         problem_(problem),
         closed_(closed),
         wide_(wide),
         execution_(execution),
-        prices_(std::move(prices)),
+        prices_(prices),
+        scratch_(scratch),
         kept_(kept),
-        weights_(kept != nullptr ? kept->weights()
-                 : prices_.step  ? own_weights_.emplace(wide, prices_.step, execution)
-                                 : own_weights_.emplace(wide, diagonal, execution)) {}
+        weights_(kept != nullptr     ? kept->weights()
+                 : prices != nullptr ? own_weights_.emplace(
+                                           wide,
+                                           [prices, scratch](Cell from, unsigned direction) {
+                                             return prices->step_up(from, direction, *scratch);
+                                           },
+                                           execution)
+                                     : own_weights_.emplace(wide, diagonal, execution)) {}
 
   /// A cell by which a place is reached, and what the leg between them costs.
   struct Entry {
@@ -71,10 +72,11 @@ class WaysOverCells {
     }
     return entries;
   }
-  /// All middles within the radius of the place (world units), and the place.
-  std::vector<Entry> region(Vec2 place, double radius, std::size_t goal) const {
-    std::vector<Entry> found;
-    if (cell_at(map_, place) && stands_free(place)) found = entries(place, goal);
+  /// Adds all middles within the radius of the place (world units), and the place.
+  void add_region(std::vector<Entry>& found, Vec2 place, double radius, std::size_t goal) const {
+    if (cell_at(map_, place) && stands_free(place)) {
+      for (const Entry& own : entries(place, goal)) found.push_back(own);
+    }
     const Vec2 centre = map_point(map_, place);
     const double reach = radius / map_.cell;
     const auto rows = std::pair{std::max(0.0, std::floor(centre.y - reach)),
@@ -93,7 +95,6 @@ class WaysOverCells {
           push_asked(found, {cell, 0, at, goal}, execution_);
       }
     }
-    return found;
   }
 
   struct Way {
@@ -216,7 +217,10 @@ class WaysOverCells {
 
   bool stands_free(Vec2 place) const { return stands_free_on_map(map_, problem_, place, execution_); }
   /// Of a straight leg, its length included.
-  double cost(Vec2 a, Vec2 b) const { return prices_.cost ? prices_.cost(a, b) : distance(a, b); }
+  double cost(Vec2 a, Vec2 b) const { return is_priced() ? prices_->cost(a, b, *scratch_) : distance(a, b); }
+  bool is_priced() const { return prices_ != nullptr; }
+  /// Of that cost, but for the length; where it is priced.
+  PriceParts parts(Vec2 a, Vec2 b) const { return prices_->parts(a, b, *scratch_); }
   const OccupancyMap& map() const { return map_; }
   const WallProblem& problem() const { return problem_; }
   const Bitmap& closed() const { return closed_; }
@@ -293,7 +297,8 @@ class WaysOverCells {
   const Bitmap& closed_;
   const Bitmap& wide_;
   const Execution& execution_;
-  LegPrices prices_;
+  const MapPrices* prices_;
+  MapPrices::Scratch* scratch_;
   KeptWays* kept_;
   std::optional<StepWeights> own_weights_;  // where none are kept
   StepWeights& weights_;
@@ -315,8 +320,7 @@ struct GoalChoice {
 
 /// Decides. via: way-points in the order that is asked; open_end: the question names no goal, its visits are all.
 /// Throws UsageError where the body does not fit at a stop, Stopped.
-GoalChoice choose_goal(WaysOverCells& ways, const OccupancyMap& map, const WallProblem& problem,
-                       std::span<const std::vector<double>> via, bool open_end);
+GoalChoice choose_goal(WaysOverCells& ways, std::span<const std::vector<double>> via, bool open_end);
 
 /// No path that does what is asked is shorter: straight ways between what may be chosen, world units. off: how far from
 /// a goal a path may end under a tolerance, as the answer's own does. none: where there is nothing to choose.
@@ -331,9 +335,9 @@ void take_bound_of_choice(Answer& answer, std::optional<double> bound);
 
 /// Takes the cheapest of the paths as the answer's own, and the others as its alternatives, all of them verified, of
 /// different classes by the judge's own cuts. answer: has the path that is found without alternatives, which is never
-/// cheaper than what is taken. distances: of the closed cells; nullptr: not made. parts: of a leg's price; empty: ways
-/// cost their length. Throws UsageError where the question has stops or a region, Stopped.
+/// cheaper than what is taken. distances: of the closed cells; nullptr: not made. Throws UsageError where the question
+/// has stops or a region, Stopped.
 void take_alternatives(Answer& answer, const RouteRule& route, WaysOverCells& ways, const DistanceField* distances,
-                       const std::function<PriceParts(Vec2, Vec2)>& parts, const Execution& execution);
+                       const Execution& execution);
 
 }  // namespace warren

@@ -90,36 +90,22 @@ class KeptWays : NotCopied {
  private:
   static constexpr std::size_t most_legs = 1 << 18;
   static constexpr std::size_t few_cells = 1024;  // changed cells, each of which is looked at for itself
-  /// Columns low.x to high.x of rows low.y to high.y.
-  struct CellRange {
-    Cell low;
-    Cell high;
-    bool is_near(Cell c, std::uint32_t by) const {
-      return c.x + by >= low.x && c.x <= high.x + by && c.y + by >= low.y && c.y <= high.y + by;
-    }
-    void include(Cell c) {
-      low = {std::min(low.x, c.x), std::min(low.y, c.y)};
-      high = {std::max(high.x, c.x), std::max(high.y, c.y)};
-    }
-    /// Cells no farther than `by`, as far as the map may go.
-    double count_around(std::uint32_t by) const {
-      return (high.x - low.x + 1.0 + 2.0 * by) * (high.y - low.y + 1.0 + 2.0 * by);
-    }
-  };
-  /// Ranges that hold all of the cells: of few cells far apart several, where less lies within `by` of these than of
-  /// one around all.
-  static std::vector<CellRange> ranges_of(std::span<const Cell> cells, std::uint32_t by) {
-    CellRange whole{cells.front(), cells.front()};
-    for (const Cell c : cells) whole.include(c);
+  static Vec2 corner(Cell c) { return {1.0 * c.x, 1.0 * c.y}; }
+  /// Boxes of the lower left corners of cells, that hold all of these: of few cells far apart several, where less lies
+  /// within `by` of these than of one around all.
+  static std::vector<Box> ranges_of(std::span<const Cell> cells, double by) {
+    const auto count_around = [by](const Box& r) { return r.grown(by + 0.5).width() * r.grown(by + 0.5).height(); };
+    Box whole;
+    for (const Cell c : cells) whole.include(corner(c));
     if (cells.size() > few_cells) return {whole};
-    std::vector<CellRange> ranges;
+    std::vector<Box> ranges;
     for (const Cell c : cells) {
-      const auto near = std::ranges::find_if(ranges, [&](const CellRange& r) { return r.is_near(c, by); });
-      near != ranges.end() ? near->include(c) : ranges.push_back({c, c});
+      const auto near = std::ranges::find_if(ranges, [&](const Box& r) { return r.grown(by).contains(corner(c)); });
+      near != ranges.end() ? near->include(corner(c)) : ranges.push_back({corner(c), corner(c)});
     }
     double count = 0.0;
-    for (const CellRange& r : ranges) count += r.count_around(by);
-    return count < whole.count_around(by) ? ranges : std::vector{whole};
+    for (const Box& r : ranges) count += count_around(r);
+    return count < count_around(whole) ? ranges : std::vector{whole};
   }
   struct HashOfLeg {
     std::size_t operator()(const Segment& leg) const {
@@ -154,11 +140,13 @@ class KeptWays : NotCopied {
     Bitmap wide = wide_;
     const DistanceField* distances = prices_->distances();
     const double kept = distances != nullptr ? distances->kept_cells() : 0.0;
-    const std::vector<CellRange> ranges = ranges_of(changed, bounded_whole<std::uint32_t>(2.0 * kept, 0.0, 1e9));
-    for (const CellRange& r : ranges) prices_->renew(r.low, r.high, execution);
+    const auto cell = [](Vec2 at) { return Cell{static_cast<std::uint32_t>(at.x), static_cast<std::uint32_t>(at.y)}; };
+    const std::vector<Box> ranges = ranges_of(changed, std::floor(2.0 * kept));
+    for (const Box& r : ranges) prices_->renew(cell(r.min), cell(r.max), execution);
     if (distances != nullptr) {
-      for (const CellRange& r : ranges) {
-        renew_for_disc(wide, map_.blocked, *distances, problem.reach() / map_.cell, r.low, r.high, execution);
+      for (const Box& r : ranges) {
+        const double reach = problem.reach() / map_.cell;
+        renew_for_disc(wide, map_.blocked, *distances, reach, cell(r.min), cell(r.max), execution);
       }
     } else {
       wide = blocked_for_disc(map_.blocked, problem.reach() / map_.cell, execution);
@@ -186,16 +174,17 @@ class KeptWays : NotCopied {
       touched.push_back(c);
       weights_->forget(c);
     });
-    forget_legs(changed, reach + 3.0);
+    forget_legs(changed, reach + 3.0, execution);
     constexpr std::uint64_t share = 3;
     if (field_ && !field_->repair(touched, fresh_ / share, execution)) field_.reset();
   }
-  void forget_legs(const std::vector<Cell>& changed, double reach) {
+  void forget_legs(const std::vector<Cell>& changed, double reach, const Execution& execution) {
     if (changed.size() > few_cells) return legs_.clear();
-    const auto square = [](Cell c) { return Box{{1.0 * c.x, 1.0 * c.y}, {c.x + 1.0, c.y + 1.0}}; };
+    const auto square = [](Cell c) { return Box{corner(c), {c.x + 1.0, c.y + 1.0}}; };
     Box all;
     for (const Cell c : changed) all.include(square(c));
-    std::erase_if(legs_, [&](const auto& known) {
+    std::erase_if(legs_, [&, number = std::size_t{0}](const auto& known) mutable {
+      execution.poll(number++);
       const Box box = box_of({map_point(map_, known.first.a), map_point(map_, known.first.b)});
       return all.grown(reach).meets(box) &&
              std::ranges::any_of(changed, [&](Cell c) { return square(c).grown(reach).meets(box); });

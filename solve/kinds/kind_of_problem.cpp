@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "core/base/error.hpp"
 
@@ -74,16 +73,6 @@ std::vector<PlannerKind> planners_where(const Holds& holds) {
   return planners;
 }
 
-std::vector<PlannerKind> planners_of(const std::vector<const SolveKind*>& kinds) {
-  std::vector<PlannerKind> planners;
-  for (const SolveKind* kind : kinds) {
-    for (const PlannerChoice& choice : kind->planners) {
-      if (std::ranges::find(planners, choice.planner) == planners.end()) planners.push_back(choice.planner);
-    }
-  }
-  return planners;
-}
-
 template <class Word>
 std::vector<PlannerKind> takers_of(Word word) {
   return planners_where([&](const SolveKind& kind, const PlannerChoice* choice) { return takes(kind, choice, word); });
@@ -93,19 +82,14 @@ std::string takers_text(const std::vector<PlannerKind>& takers) {
   return fmt::format("{} {} it", listed(takers), takers.size() == 1 ? "takes" : "take");
 }
 
-/// What a question asks for: each of `words` and `options`.
-struct Asked {
-  const AskedWords& words;
-  const SolveOptions& options;
-};
-
 /// Those of the kinds that fit a problem and take all that is asked; where there are none, those that take the word
 /// alone; where these have none, all, and for which problems.
 template <class Word>
-std::string takers_text(Word word, const std::vector<const SolveKind*>& fitting, const Asked& asked) {
+std::string takers_text(Word word, const std::vector<const SolveKind*>& fitting, AskedWords words,
+                        const SolveOptions& options) {
   const auto fits = [&](const SolveKind& kind) { return std::ranges::count(fitting, &kind) > 0; };
   const auto whole = planners_where([&](const SolveKind& kind, const PlannerChoice* choice) {
-    return fits(kind) && takes_all(kind, choice, asked.words, asked.options);
+    return fits(kind) && takes_all(kind, choice, words, options);
   });
   if (!whole.empty()) return takers_text(whole);
   const auto here = planners_where(
@@ -122,15 +106,15 @@ std::string takers_text(Word word, const std::vector<const SolveKind*>& fitting,
 
 /// Refuses the first of the options that the chosen planner would ignore, then of the words: before it one that nobody
 /// takes here.
-void refuse_ignored(const Asked& asked, const ChosenSolver& chosen, const Scene& scene, const Question& question,
-                    const std::vector<const SolveKind*>& fitting) {
+void refuse_ignored(AskedWords words, const SolveOptions& options, const ChosenSolver& chosen, const Scene& scene,
+                    const Question& question, const std::vector<const SolveKind*>& fitting) {
   const PlannerChoice* choice = choice_in(*chosen.kind, chosen.planner);
-  for (const Option option : given(asked.options).members()) {
+  for (const Option option : given(options).members()) {
     if (takes(*chosen.kind, choice, option)) continue;
     throw UsageError(fmt::format("@{}: {} would ignore it for {}; {}", name_of(option), name_of(chosen.planner),
-                                 fitting.front()->problem, takers_text(option, fitting, asked)));
+                                 fitting.front()->problem, takers_text(option, fitting, words, options)));
   }
-  std::vector<AskedWord> ignored = asked.words.members();
+  std::vector<AskedWord> ignored = words.members();
   std::erase_if(ignored, [&](AskedWord word) { return takes_all(*chosen.kind, choice, {word}, {}); });
   std::stable_partition(ignored.begin(), ignored.end(), [&](AskedWord word) {
     return std::ranges::none_of(fitting, [&](const SolveKind* kind) { return is_taken(*kind, word); });
@@ -140,31 +124,17 @@ void refuse_ignored(const Asked& asked, const ChosenSolver& chosen, const Scene&
     const std::string_view what = is_factor ? "its factor" : word == AskedWord::goal_heading ? "its angle" : "it";
     throw UsageError(fmt::format("{}: {} would ignore {} for {}; {}", place_of_word(word, scene, question),
                                  name_of(chosen.planner), what, fitting.front()->problem,
-                                 takers_text(word, fitting, asked)));
+                                 takers_text(word, fitting, words, options)));
   }
 }
 
+/// Every body has planners and a judge in every world that check_plannable takes.
 std::vector<const SolveKind*> fitting_kinds(const Scene& scene, const RobotSpec& robot) {
   std::vector<const SolveKind*> fitting;
   for (const SolveKind& kind : solve_kinds()) {
     if (kind.unmade == is_unmade(scene) && kind.fits(scene, robot)) fitting.push_back(&kind);
   }
   return fitting;
-}
-
-/// The first that has what is asked for: every body has planners and a judge in every world that check_plannable takes.
-template <class Has>
-const SolveKind& first_kind(const std::vector<const SolveKind*>& fitting, std::string_view what, const Has& has) {
-  const auto found = std::ranges::find_if(fitting, has);
-  if (found == fitting.end()) throw std::logic_error(fmt::format("no {} fits a world that is planned in", what));
-  return **found;
-}
-
-/// Who names how good the path shall be, or how long it is worked on, asks for a planner that gets better.
-PlannerKind usual_planner_of(const SolveKind& kind, const SolveOptions& options, const Scene& scene,
-                             const Question& question) {
-  const bool wants_better = options.anytime.gap || options.anytime.iterations || !options.anytime.parts.empty();
-  return wants_better ? PlannerKind::anytime : kind.usual_planner(options, scene, question);
 }
 
 /// The usual planner where it respects all the words and takes all the options, else the first that does; none: nobody.
@@ -190,7 +160,12 @@ void check_corridors(const SolveOptions& options, const Scene& scene) {
 }
 
 [[noreturn]] void refuse_planner(PlannerKind planner, const std::vector<const SolveKind*>& fitting) {
-  const std::vector<PlannerKind> others = planners_of(fitting);
+  std::vector<PlannerKind> others;
+  for (const SolveKind* kind : fitting) {
+    for (const PlannerChoice& choice : kind->planners) {
+      if (std::ranges::find(others, choice.planner) == others.end()) others.push_back(choice.planner);
+    }
+  }
   throw UsageError(fmt::format("@planner: {} does not solve {}; {} {}", name_of(planner), fitting.front()->problem,
                                listed(others), others.size() == 1 ? "does" : "do"));
 }
@@ -217,14 +192,16 @@ void check_solver_options(const SolveOptions& options) {
 ChosenSolver choose_solver(const SolveOptions& options, const Scene& scene, const Question& question) {
   check_plannable(scene, question);
   const std::vector<const SolveKind*> fitting = fitting_kinds(scene, robot_of(scene, question));
-  const SolveKind& first =
-      first_kind(fitting, "planner", [](const SolveKind* kind) { return !kind->planners.empty(); });
   check_asked(scene, question);
   const AskedWords words = words_in(scene, question);
   std::optional<PlannerKind> asked = options.planner;
-  const PlannerKind usual = asked ? *asked : usual_planner_of(first, options, scene, question);
+  // Who names how good the path shall be, or how long it is worked on, asks for a planner that gets better.
+  const bool wants_better = options.anytime.gap || options.anytime.iterations || !options.anytime.parts.empty();
+  const PlannerKind usual = asked          ? *asked
+                            : wants_better ? PlannerKind::anytime
+                                           : fitting.front()->usual_planner(options, scene, question);
   if (!asked && !words.empty()) asked = planner_for_words(words, options, usual, fitting);
-  ChosenSolver chosen{&first, asked.value_or(usual)};
+  ChosenSolver chosen{fitting.front(), asked.value_or(usual)};
   const auto has_it = [&](const SolveKind* kind) { return choice_in(*kind, chosen.planner) != nullptr; };
   const auto takes_it = [&](const SolveKind* kind) {
     return takes_all(*kind, choice_in(*kind, chosen.planner), words, options);
@@ -233,7 +210,7 @@ ChosenSolver choose_solver(const SolveOptions& options, const Scene& scene, cons
   if (found == fitting.end()) found = std::ranges::find_if(fitting, has_it);
   if (found == fitting.end()) refuse_planner(chosen.planner, fitting);
   chosen.kind = *found;
-  refuse_ignored({words, options}, chosen, scene, question, fitting);
+  refuse_ignored(words, options, chosen, scene, question, fitting);
   check_corridors(options, scene);
   return chosen;
 }
@@ -249,8 +226,8 @@ std::string place_of_word(AskedWord word, const Scene& scene, const Question& qu
 
 const SolveKind& verifying_kind(const Scene& scene, const Question& question) {
   check_plannable(scene, question);
-  return first_kind(fitting_kinds(scene, robot_of(scene, question)), "judge",
-                    [](const SolveKind* kind) { return kind->verify != nullptr; });
+  const std::vector<const SolveKind*> fitting = fitting_kinds(scene, robot_of(scene, question));
+  return **std::ranges::find_if(fitting, [](const SolveKind* kind) { return kind->verify != nullptr; });
 }
 
 bool planner_takes(PlannerKind planner, Option option) {

@@ -13,7 +13,7 @@
 //    prices, restrictions, goals; the same);
 // 4. for bodies that sample, whose branch is shared: plan(), plan_roadmap(), grow_trees(), plan_better() or
 //    plan_on_lattice() of SampledSolve (sampled_solve.hpp), planned_worlds.hpp and planned_*.cpp, where it is compiled;
-// 5. the help (tools/words/planner_words.cpp), Python's (apps/python/warren/_worlds.pyi, _errors.py), and of one that
+// 5. the help (tools/words/question_words.cpp), Python's (apps/python/warren/_worlds.pyi, _errors.py), and of one that
 //    gets better the page's (apps/serve/page/better.js);
 // 6. tests/matrix/planners.table, of which README's table is made, and matrix_checks.cpp there;
 // 7. docs/file_formats.md, algorithms.md, other_names.md;
@@ -122,7 +122,7 @@ struct BuiltArrays {
 struct SolveKind {
   std::string_view problem;  ///< "a point or disc among walls"
   bool (*fits)(const Scene& scene, const RobotSpec& robot);
-  std::span<const PlannerChoice> planners;  ///< empty: this version has none
+  std::span<const PlannerChoice> planners;  ///< at least one
   PlannerKind (*usual_planner)(const SolveOptions& options, const Scene& scene, const Question& question);
   /// Solves from the world in memory to the path verified. Throws UsageError, InputError for what can't be asked; a
   /// stop is an answer. Fills in all of Answer but world, threads and peak memory.

@@ -80,7 +80,7 @@ void describe_plane_planner(Answer& answer, const SolveRequest& request, const W
   answer.problem = problem.general();
   answer.planner = name_of(request.planner);
   answer.search = name_of(search.search);
-  answer.seed = search.seed;
+  answer.seed = request.options.seed;
   if (request.options.queue) answer.options.push_back({"queue", std::string(name_of(*request.options.queue))});
 }
 

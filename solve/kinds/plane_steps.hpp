@@ -37,9 +37,8 @@ void describe_plane_planner(Answer& answer, const SolveRequest& request, const W
 /// path are dropped.
 void stay(Answer& answer, const WallProblem& problem);
 
-/// How cells are passed, and how an answer repeats it.
+/// How cells are passed.
 CellOptions cell_options(const SolveOptions& options, const SearchChoice& search);
-NamedFigure doors_option(const CellOptions& options);
 /// The doors, which are the borders between cells; floors and ceilings are obstacles anyway.
 NamedLines doors_of(const CellDecomposition& cells);
 

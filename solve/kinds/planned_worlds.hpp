@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The planners, compiled once a kind of state: whoever includes this calls them as they stand in planners/, with the
-// view of a world (planners/graph/any_world.hpp), and compiles none of them again, which was half of the work of
-// building the library. planned_*.cpp have them: for points, poses, poses whose ways lead one way, and arms.
+// The planners, compiled once a kind of state: whoever calls them through planned(), with the view of a world
+// (planners/graph/any_world.hpp), compiles none of them again, which was half of the work of building the library.
+// planned_*.cpp have them: for points, poses, poses whose ways lead one way, and arms.
 #pragma once
 
 #include <functional>
@@ -40,40 +40,43 @@ Path<State> improved_path(const AnyWorld<State, one_way>& world, Path<State> pat
   return improve_path(world, std::move(path), length, options, execution, counters);
 }
 
-extern template decltype(prm<Vec2>) prm<Vec2>;
-extern template decltype(lazy_prm<Vec2>) lazy_prm<Vec2>;
-extern template decltype(rrt<Vec2, false>) rrt<Vec2, false>;
-extern template decltype(rrt_connect<Vec2, false>) rrt_connect<Vec2, false>;
-extern template decltype(anytime<Vec2, false>) anytime<Vec2, false>;
-extern template decltype(ask_roadmap<AnyWorld<Vec2>>) ask_roadmap<AnyWorld<Vec2>>;
-extern template decltype(build_roadmap<Vec2, false>) build_roadmap<Vec2, false>;
-extern template decltype(shorter_path<Vec2, false>) shorter_path<Vec2, false>;
-extern template decltype(improved_path<Vec2, false>) improved_path<Vec2, false>;
-extern template decltype(prm<Se2>) prm<Se2>;
-extern template decltype(lazy_prm<Se2>) lazy_prm<Se2>;
-extern template decltype(rrt<Se2, false>) rrt<Se2, false>;
-extern template decltype(rrt_connect<Se2, false>) rrt_connect<Se2, false>;
-extern template decltype(anytime<Se2, false>) anytime<Se2, false>;
-extern template decltype(ask_roadmap<AnyWorld<Se2>>) ask_roadmap<AnyWorld<Se2>>;
-extern template decltype(build_roadmap<Se2, false>) build_roadmap<Se2, false>;
-extern template decltype(shorter_path<Se2, false>) shorter_path<Se2, false>;
-extern template decltype(improved_path<Se2, false>) improved_path<Se2, false>;
-extern template decltype(one_way_prm<Se2, true>) one_way_prm<Se2, true>;
-extern template decltype(rrt<Se2, true>) rrt<Se2, true>;
-extern template decltype(rrt_connect<Se2, true>) rrt_connect<Se2, true>;
-extern template decltype(anytime<Se2, true>) anytime<Se2, true>;
-extern template decltype(ask_roadmap<AnyWorld<Se2, true>>) ask_roadmap<AnyWorld<Se2, true>>;
-extern template decltype(build_roadmap<Se2, true>) build_roadmap<Se2, true>;
-extern template decltype(shorter_path<Se2, true>) shorter_path<Se2, true>;
-extern template decltype(improved_path<Se2, true>) improved_path<Se2, true>;
-extern template decltype(prm<JointState>) prm<JointState>;
-extern template decltype(lazy_prm<JointState>) lazy_prm<JointState>;
-extern template decltype(rrt<JointState, false>) rrt<JointState, false>;
-extern template decltype(rrt_connect<JointState, false>) rrt_connect<JointState, false>;
-extern template decltype(anytime<JointState, false>) anytime<JointState, false>;
-extern template decltype(ask_roadmap<AnyWorld<JointState>>) ask_roadmap<AnyWorld<JointState>>;
-extern template decltype(build_roadmap<JointState, false>) build_roadmap<JointState, false>;
-extern template decltype(shorter_path<JointState, false>) shorter_path<JointState, false>;
-extern template decltype(improved_path<JointState, false>) improved_path<JointState, false>;
+/// prm or lazy_prm, and where ways lead one way one_way_prm.
+template <class State, bool one_way>
+Solution<State> planned_on_roadmap(const AnyWorld<State, one_way>& world, const State& start, const State& goal,
+                                   const RoadmapOptions& options, bool lazy, const Execution& execution,
+                                   PlannedRoadmap<State>* keep) {
+  if constexpr (one_way) {
+    return one_way_prm(world, start, goal, options, lazy, execution, keep);
+  } else {
+    return (lazy ? lazy_prm<State> : prm<State>)(world, start, goal, options, execution, keep);
+  }
+}
+
+/// The planners of a kind of state.
+template <class State, bool one_way>
+struct Planned {
+  decltype(planned_on_roadmap<State, one_way>)* on_roadmap = planned_on_roadmap<State, one_way>;
+  decltype(warren::rrt<State, one_way>)* rrt = warren::rrt<State, one_way>;
+  decltype(warren::rrt_connect<State, one_way>)* rrt_connect = warren::rrt_connect<State, one_way>;
+  decltype(warren::anytime<State, one_way>)* anytime = warren::anytime<State, one_way>;
+  decltype(ask_roadmap<AnyWorld<State, one_way>>)* ask = ask_roadmap<AnyWorld<State, one_way>>;
+  decltype(build_roadmap<State, one_way>)* build = build_roadmap<State, one_way>;
+  decltype(shorter_path<State, one_way>)* shorter = shorter_path<State, one_way>;
+  decltype(improved_path<State, one_way>)* improved = improved_path<State, one_way>;
+};
+template <class State, bool one_way = false>
+const Planned<State, one_way>& planned() {
+  static const Planned<State, one_way> all;
+  return all;
+}
+/// Those for the states of a world.
+template <World W>
+const auto& planned_in() {
+  return planned<typename W::State, is_one_way<W>>();
+}
+extern template const Planned<Vec2, false>& planned<Vec2, false>();
+extern template const Planned<Se2, false>& planned<Se2, false>();
+extern template const Planned<Se2, true>& planned<Se2, true>();
+extern template const Planned<JointState, false>& planned<JointState, false>();
 
 }  // namespace warren

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <tuple>
 #include <utility>
 
 #include "core/base/solution.hpp"
@@ -18,17 +17,14 @@
 #include "planners/shorten/taut_path.hpp"
 #include "scenes/scene/prices.hpp"
 #include "scenes/scene/scene.hpp"
-#include "worlds/prices/effective_map.hpp"
+#include "worlds/prices/map_prices.hpp"
 
 namespace warren {
 
-/// What a free motion costs; empty: its length.
-using MotionCost = std::function<double(const Vec2&, const Vec2&)>;
-
-/// The cost of legs, the same both ways to the last bit; any number of threads may ask. Empty where nothing is priced.
-/// Refers to the prices.
+/// The cost of free legs, the same both ways to the last bit; any number of threads may ask. Empty where nothing is
+/// priced. Refers to the prices.
 template <class LegPrices>
-MotionCost motion_cost(const LegPrices& prices) {
+std::function<double(const Vec2&, const Vec2&)> motion_cost(const LegPrices& prices) {
   if (!prices.is_priced()) return {};
   return [&prices](const Vec2& a, const Vec2& b) {
     thread_local typename LegPrices::Scratch scratch;
@@ -44,7 +40,7 @@ class PosePrices {
   /// kept: room that the body's world takes off its distances.
   PosePrices(const Scene& scene, const Prices& prices, double kept)
       : map_(scene.map ? &*scene.map : nullptr),
-        areas_(prices, [](Vec2 p) { return p; }),
+        areas_(prices),
         unknown_(map_ != nullptr && !map_->unknown.empty() ? prices.unknown.value_or(1.0) : 1.0),
         kept_(kept) {
     if (prices.clearance && prices.clearance->price > 0.0) {
@@ -104,24 +100,9 @@ class PosePrices {
   double step_ = std::numeric_limits<double>::infinity();
 };
 
-/// What a free motion of a turning body costs beyond the metric; empty where nothing is priced. Refers to both.
-template <class World>
-std::function<double(const Se2&, const Se2&)> motion_cost(const World& world, const PosePrices& prices) {
-  if (!prices.is_priced()) return {};
-  return [&world, &prices](const Se2& a, const Se2& b) {
-    auto query = world.make_query();
-    const bool is_forward = std::tie(a.x, a.y, a.theta) <= std::tie(b.x, b.y, b.theta);
-    const Se2& from = is_forward ? a : b;
-    const Se2& to = is_forward ? b : a;
-    return world.distance(from, to) + prices.over(world, distance(a.position(), b.position()), query,
-                                                  [&](double t) { return world.interpolate(from, to, t); });
-  };
-}
-
 /// The path pulled taut under the price; step: as PricedLegs has it.
-template <class World>
-Path<Vec2> pulled_taut(const World& world, Path<Vec2> path, const MotionCost& cost, double step,
-                       const Execution& execution) {
+template <class World, class Cost>
+Path<Vec2> pulled_taut(const World& world, Path<Vec2> path, const Cost& cost, double step, const Execution& execution) {
   auto query = world.make_query();
   const auto is_free = [&](Vec2 a, Vec2 b) {
     return world.is_free(a, query) && world.is_free(b, query) && world.is_free_motion(a, b, query);

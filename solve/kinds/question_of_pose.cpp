@@ -93,6 +93,23 @@ PoseVerifyOptions verify_options(const PoseProblem& problem) {
           .any_heading = problem.any_heading()};
 }
 
+Verification PoseJudge::judged(std::span<const Se2> poses, const PoseVerifyOptions& options) const {
+  if (problem.robot.kind == RobotKind::car) return verify_car(scene, problem.robot, poses, options, execution, index);
+  return verify_se2(scene, problem.robot.outline, poses, options, execution, index);
+}
+
+bool PoseJudge::stands_free(const Se2& pose) const {
+  const double margin = end_margin(scene, problem, execution);
+  return judged(std::span(&pose, 1), {.clearance = problem.clearance + margin}).verified;
+}
+
+Outcome PoseJudge::settled(Outcome outcome) const {
+  const auto is_free = [this](const Se2& pose) { return stands_free(pose); };
+  return settled_ends(
+      outcome, [&] { return is_free(problem.start); },
+      [&] { return std::ranges::any_of(poses_to_meet(scene, problem, execution, is_free), is_free); });
+}
+
 void take_poses(Answer& answer, const Verification& verdict, std::span<const Se2> path) {
   take_verdict(answer, verdict);
   answer.turn_rad = verdict.turn_rad;

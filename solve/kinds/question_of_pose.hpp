@@ -68,16 +68,17 @@ PoseVerifyOptions verify_options(const PoseProblem& problem);
 /// The judge's word on a path, and the path as the answer gives it. Throws as take_verdict().
 void take_poses(Answer& answer, const Verification& verdict, std::span<const Se2> path);
 
-/// What is said of the ends where one is called blocked. stands_free(pose): by the verification, as an end.
-template <class StandsFree>
-void settle_blocked_poses(Answer& answer, const Scene& scene, const PoseProblem& problem, const Execution& execution,
-                          const StandsFree& stands_free) {
-  answer.outcome = settled_ends(
-      answer.outcome, [&] { return stands_free(problem.start); },
-      [&] {
-        const std::vector<Se2> goals = poses_to_meet(scene, problem, execution, stands_free);
-        return std::ranges::any_of(goals, stands_free);
-      });
-}
+/// The judge of a turning polygon or a car, as solves ask it. Refers to all of it.
+struct PoseJudge {
+  const Scene& scene;
+  const PoseProblem& problem;
+  const Execution& execution;
+  const ObstacleIndex* index = nullptr;  ///< of the scene, where there is one
+
+  Verification judged(std::span<const Se2> poses, const PoseVerifyOptions& options) const;
+  bool stands_free(const Se2& pose) const;  ///< as an end
+  /// What is said of the ends where the outcome calls one blocked.
+  Outcome settled(Outcome outcome) const;
+};
 
 }  // namespace warren

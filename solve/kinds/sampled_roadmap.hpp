@@ -52,7 +52,7 @@ inline constexpr bool is_arm_world = requires(const W& world) {
 /// Numbers that a state has where it is kept.
 template <World W>
 unsigned state_width(const W& world) {
-  if constexpr (is_arm_world<W>) return static_cast<unsigned>(world.variable_count());
+  if constexpr (is_arm_world<W>) return static_cast<unsigned>(world.unit_dimension());
   return std::is_same_v<typename W::State, Vec2> ? 2 : 3;
 }
 
@@ -265,7 +265,7 @@ BuiltArrays build_sampled(const SolveRequest& request) {
   }
   const bool lazy = request.planner == PlannerKind::lazy_prm;
   const auto known = detail::known_motions(*world, request, body.problem());
-  BuiltRoadmap<State> built = build_roadmap(WorldView(*world), options, lazy, execution, known);
+  BuiltRoadmap<State> built = planned_in<World>().build(WorldView(*world), options, lazy, execution, known);
   all.samples = built.samples;
   all.rule = built.rule;
   all.account.counters = built.counters;
@@ -319,7 +319,7 @@ std::unique_ptr<RoadmapSession> open_sampled(const SolveRequest& request, const 
     throw InputError("roadmap", "its rule is not the one that follows from its options");
   }
   detail::check_drawn(*session->world, request, body.problem(), arrays.states);
-  if (request.many && Body::judged_by_index && !request.scene.map)
+  if (request.many && !detail::is_arm_world<World> && !request.scene.map)
     session->judged.emplace(request.scene, request.execution);
   const std::span<const double> numbers(arrays.states);
   RawVector<State> states;

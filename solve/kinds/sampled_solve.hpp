@@ -45,7 +45,6 @@
 #include "planners/shorten/shortcut.hpp"
 #include "solve/answer/answer.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
-#include "solve/kinds/lower_bound.hpp"
 #include "solve/kinds/plane_steps.hpp"
 #include "solve/kinds/planned_worlds.hpp"
 #include "solve/kinds/sampled_roadmap.hpp"
@@ -61,7 +60,6 @@ class UsualBody {
  public:
   static constexpr bool names_pipeline = false;
   static constexpr bool has_cost = false;          ///< is what the planners make small another measure than the length?
-  static constexpr bool judged_by_index = false;   ///< does its judge take an ObstacleIndex?
   static constexpr bool improves_by_draws = true;  ///< does improved() make use of its seed?
 
   Problem problem() const { return problem_.general(); }
@@ -88,7 +86,7 @@ class UsualBody {
                                               Counters& counters) {
     using State = typename World::State;
     const auto cost = [&](const State& a, const State& b) { return world.distance(a, b); };
-    return improved_path(WorldView(world), path, cost, how, execution, counters);
+    return planned_in<World>().improved(WorldView(world), path, cost, how, execution, counters);
   }
   static std::uint64_t goals_tried() { return 0; }
   static bool knows_all_goals() { return true; }
@@ -107,7 +105,8 @@ class UsualBody {
         problem_(std::move(problem)) {}
   template <class World, class State, class Length>
   Path<State> shortcut(const World& world, Path<State> path, const Length& length, Answer& answer) const {
-    return shorter_path(WorldView(world), std::move(path), length, {.seed = answer.seed}, execution_, answer.counters);
+    return planned_in<World>().shorter(WorldView(world), std::move(path), length, {.seed = answer.seed}, execution_,
+                                       answer.counters);
   }
 
   const Scene& scene_;
@@ -125,7 +124,7 @@ class PointBody : public UsualBody<WallProblem> {
     return {problem_.goal};
   }
   bool start_stands_free() const { return point_judge().stands_free(problem_.start); }
-  bool goal_stands_free(Vec2 goal) const { return point_judge().stands_free(goal); }
+  bool goal_stands_free(Vec2 goal) const { return point_judge().goal_stands_free(goal); }
   void take_prices(const MotionLength<Vec2>& cost) { cost_ = cost; }
   template <class World>
   void judge(const World&, Path<Vec2> path, Answer& answer) const {
@@ -149,15 +148,69 @@ class PointBody : public UsualBody<WallProblem> {
   std::optional<Prices> prices_;
 };
 
+/// A polygon or car: a goal X,Y without a heading is met in any: as the body started, and as poses_to_meet() has them.
+/// Roadmaps try those first that have at least half of the most room, the nearest to the start of them first, so that
+/// in the open nothing turns for nothing; then the others, the roomiest first.
+class PoseBody : public UsualBody<PoseProblem> {
+ public:
+  PoseBody(const SolveRequest& request, PoseProblem problem) : UsualBody(request, std::move(problem)) {}
+
+  bool start_stands_free() const { return pose_judge().stands_free(problem_.start); }
+  bool goal_stands_free(const Se2& pose) const { return pose_judge().stands_free(pose); }
+  template <class World>
+  std::vector<Se2> goals(const World& world) const {
+    auto query = world.make_query();
+    std::vector<Se2> poses =
+        poses_to_meet(scene_, problem_, execution_, [&](const Se2& pose) { return world.is_free(pose, query); });
+    if (!problem_.any_heading()) return poses;
+    const Se2 as_started{problem_.goal[0], problem_.goal[1], wrapped_angle(problem_.start.theta)};
+    if (std::ranges::find(poses, as_started) == poses.end()) poses.insert(poses.begin(), as_started);
+    return poses;
+  }
+  static SamplerKind choose_sampler(const SolveOptions& options, const RoadmapOptions& roadmap) {
+    if (options.sampler && takes_all_places(*options.sampler)) {
+      throw UsageError(
+          fmt::format("@sampler: {} is for points and discs in mazes and on maps; a turning body takes the others",
+                      name_of(*options.sampler)));
+    }
+    return roadmap.sampler == SamplerKind::lattice ? SamplerKind::uniform : roadmap.sampler;
+  }
+  template <class World>
+  std::vector<Se2> best_first(const World& world, const std::vector<Se2>& goals) const {
+    if (goals.size() < 2) return goals;
+    auto query = world.make_query();
+    std::vector<std::pair<double, Se2>> by_room;
+    for (const Se2& goal : goals) by_room.emplace_back(world.clearance(goal, largest_coordinate, query), goal);
+    std::ranges::stable_sort(by_room, [](const auto& a, const auto& b) { return a.first > b.first; });
+    const auto is_roomy = [enough = 0.5 * by_room.front().first](const auto& goal) { return goal.first >= enough; };
+    const auto roomy = std::ranges::partition_point(by_room, is_roomy);
+    std::stable_sort(by_room.begin(), roomy, [&](const auto& a, const auto& b) {
+      return world.distance(problem_.start, a.second) < world.distance(problem_.start, b.second);
+    });
+    std::vector<Se2> sorted;
+    for (const auto& [room, goal] : by_room) sorted.push_back(goal);
+    return sorted;
+  }
+  template <class World>
+  bool provably_apart(const World&, const std::vector<Se2>& goals) const {
+    return std::ranges::all_of(goals, [&](const Se2& goal) {
+      return warren::provably_apart(*scene_.map, problem_.robot, problem_.start, goal, execution_);
+    });
+  }
+
+ protected:
+  PoseJudge pose_judge() const { return {scene_, problem_, execution_, judged_}; }
+};
+
 template <class Body>
 class SampledSolve {
  public:
   using World = typename Body::World;
   using State = typename World::State;
 
-  /// Throws UsageError. Refers to the request. `own`, of planners that get better: the execution of the request, whose
-  /// limits end with the search, so that its path is judged.
-  SampledSolve(const SolveRequest& request, Body body, Execution* own = nullptr)
+  /// Throws UsageError. Refers to the request. `own`: its execution; the limits of planners that get better end with
+  /// the search, so that its path is judged.
+  SampledSolve(const SolveRequest& request, Body body, Execution& own)
       : request_(request), own_(own), body_(std::move(body)) {
     answer_.problem = body_.problem();
     answer_.planner = name_of(request.planner);
@@ -272,14 +325,9 @@ class SampledSolve {
   Solution<State> plan_roadmap(const State& start, const State& goal) {
     const bool lazy = request_.planner == PlannerKind::lazy_prm;
     if (asked_ != nullptr) {
-      return ask_roadmap(*asked_, start, goal, roadmap_options_, execution(), *request_.asked.scratch, kept());
+      return planners_.ask(*asked_, start, goal, roadmap_options_, execution(), *request_.asked.scratch, kept());
     }
-    if constexpr (is_one_way<World>) {
-      return one_way_prm<State>(*view_, start, goal, roadmap_options_, lazy, execution(), kept());
-    } else {
-      const auto planner = lazy ? lazy_prm<State> : prm<State>;
-      return planner(*view_, start, goal, roadmap_options_, execution(), kept());
-    }
+    return planners_.on_roadmap(*view_, start, goal, roadmap_options_, lazy, execution(), kept());
   }
   AnytimeOptions better_options() const {
     constexpr std::uint64_t usual_iterations = 20;
@@ -324,10 +372,10 @@ class SampledSolve {
       Answer judged;
       judged.outcome = Outcome::solved;
       const auto begin = std::chrono::steady_clock::now();
-      const Restored restored{*own_};
-      own_->progress = nullptr;  // nobody is told of the stages meanwhile
-      own_->trace = nullptr;
-      own_->account = nullptr;
+      const Restored restored{own_};
+      own_.progress = nullptr;  // nobody is told of the stages meanwhile
+      own_.trace = nullptr;
+      own_.account = nullptr;
       body_.judge(*world_, Path<State>(path), judged);
       return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     };
@@ -384,7 +432,8 @@ class SampledSolve {
     options.lower_bound = bound(BoundEffort::simple);
     options.all_goals = answer_.problem.goal.size() == answer_.problem.start.size();  // else some headings or postures
     const auto begin = std::chrono::steady_clock::now();
-    AnytimeSolution<State> found = anytime(*view_, State(body_.start()), goals, options, body_of_better(), execution());
+    AnytimeSolution<State> found =
+        planners_.anytime(*view_, State(body_.start()), goals, options, body_of_better(), execution());
     answer_.lower_bound = found.lower_bound;
     answer_.improvements = std::move(found.improvements);
     answer_.iterations = found.iterations;
@@ -398,7 +447,7 @@ class SampledSolve {
   void end_limits(StopReason reason) {
     if (!enum_named<StopReason>(answer_.ended_by)) return;
     answer_.stop_reason = reason;
-    if (own_ != nullptr) untime(*own_, last_);
+    untime(own_, last_);
   }
   void plan_on_lattice() {
     if constexpr (requires { body_.on_lattice(*world_, goals_, answer_); }) {
@@ -415,7 +464,7 @@ class SampledSolve {
   void shorten_better(std::chrono::steady_clock::time_point begin) {
     const StageTimer timer(execution(), "optimise", answer_.seconds.optimise, path_.size());
     answer_.raw_length = length_of(path_);
-    try {
+    stopped_by([&] {  // it stays as it is then
       const ImproveOptions how{.seed = answer_.seed};
       Path<State> shorter = body_.improved(*world_, path_, how, execution(), answer_.counters);
       if (!(cost_of(shorter) < cost_of(path_))) return;
@@ -427,8 +476,7 @@ class SampledSolve {
       better.length = length_of(path_);
       better.by = "optimise";
       answer_.improvements.push_back(std::move(better));
-    } catch (const Stopped&) {  // it stays as it is
-    }
+    });
   }
   double cost_of(const Path<State>& path) const {
     return path_length(path, [this](const State& a, const State& b) { return world_->distance(a, b); });
@@ -437,8 +485,7 @@ class SampledSolve {
     return path_length(path, [this](const State& a, const State& b) { return body_.length(*world_, a, b); });
   }
   Solution<State> grow_trees() {
-    constexpr bool one_way = is_one_way<World>;
-    const auto planner = request_.planner == PlannerKind::rrt ? rrt<State, one_way> : rrt_connect<State, one_way>;
+    const auto planner = request_.planner == PlannerKind::rrt ? planners_.rrt : planners_.rrt_connect;
     return planner(*view_, State(body_.start()), goals_, tree_options_, execution(), kept());
   }
   /// A roadmap takes the place of the one before; trees stand beside each other.
@@ -522,12 +569,10 @@ class SampledSolve {
       const double paid = answer_.cost.value_or(answer_.length);
       answer_.optimal = paid - *answer_.lower_bound <= as_good * paid;
     }
-    // It was measured over the lattice.
-    if (on_lattice() && answer_.ended_by == "gap" && !is_within_gap()) answer_.ended_by = "lattice_gap";
-  }
-  bool is_within_gap() const {
     const std::optional<double> told = gap_of(answer_);
-    return told && *told <= request_.options.anytime.gap.value_or(LatticeSearchOptions{}.gap);
+    const bool is_within_gap = told && *told <= request_.options.anytime.gap.value_or(LatticeSearchOptions{}.gap);
+    // It was measured over the lattice.
+    if (on_lattice() && answer_.ended_by == "gap" && !is_within_gap) answer_.ended_by = "lattice_gap";
   }
   /// Why there is no path, one word a cause.
   std::string_view cause() const {
@@ -536,8 +581,9 @@ class SampledSolve {
     return cause_of_separation(answer_, by_roadmap());
   }
 
+  const Planned<State, is_one_way<World>>& planners_ = planned_in<World>();
   const SolveRequest& request_;
-  Execution* own_;
+  Execution& own_;
   std::optional<Deadline> last_;  // without the time
   Body body_;
   RoadmapOptions roadmap_options_;  // of prm and lazy-prm
@@ -555,11 +601,10 @@ class SampledSolve {
 /// SolveKind::solve for a body.
 template <class Body>
 Answer solve_sampled(const SolveRequest& request) {
-  if (!gets_better(request.planner) && request.planner != PlannerKind::grid)
-    return SampledSolve(request, Body(request)).run();
   Execution execution = request.execution;
-  SolveRequest own{request.options, request.scene, request.question, request.planner, execution, request.keep};
-  return SampledSolve(own, Body(own), &execution).run();
+  const SolveRequest own{request.options, request.scene, request.question, request.planner,
+                         execution,       request.keep,  request.asked};
+  return SampledSolve(own, Body(own), execution).run();
 }
 
 }  // namespace warren

@@ -10,14 +10,12 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "solve/kinds/kind_of_problem.hpp"
-#include "solve/kinds/sampled_roadmap.hpp"
 #include "solve/kinds/sampled_solve.hpp"
-#include "solve/kinds/solve_steps.hpp"
 #include "solve/question/planner_choice.hpp"
 #include "solve/question/question_of_arm.hpp"
 #include "worlds/arms/arm_world.hpp"
-#include "worlds/arms/puma560.hpp"
+#include "worlds/arms/convex_motion.hpp"
+#include "worlds/arms/serial_chain.hpp"
 
 namespace warren {
 namespace {
@@ -98,7 +96,7 @@ class Arm : public UsualBody<ArmProblem> {
     if (outcome == Outcome::start_blocked) {
       return is_outside(problem_.start) ? "start_outside_limits" : "start_in_collision";
     }
-    if (goals.empty()) return tip_is_blocked(scene_, problem_) ? "goal_in_collision" : "goal_out_of_reach";
+    if (goals.empty()) return tip_is_blocked() ? "goal_in_collision" : "goal_out_of_reach";
     return std::ranges::all_of(goals, is_outside) ? "goal_outside_limits" : "goal_in_collision";
   }
 
@@ -119,6 +117,17 @@ class Arm : public UsualBody<ArmProblem> {
                      "a solid of it or of its arm is larger or farther away than 1e5 m, where no path can be verified; "
                      "cut it off nearer to the arm",
                      found.first_violation.value_or(Violation{}).obstacle);
+  }
+  /// Is the goal's place so near an obstacle that no link could end there, whatever the posture? Of arms whose links
+  /// are capsules as far as the tool.
+  bool tip_is_blocked() const {
+    if (!problem_.table || problem_.goal_pose) return false;
+    const ConvexBody tip({SolidKind::sphere, Eigen::Isometry3d(Eigen::Translation3d(problem_.goal_place())),
+                          Vec3(problem_.robot.radius, 0.0, 0.0)});
+    const MovingFrame still;
+    return std::ranges::any_of(solids_of(scene_, {}), [&](const Solid& solid) {
+      return keep_apart(tip, still, ConvexBody(solid), still, 0.0, problem_.clearance) != Apart::proved;
+    });
   }
   /// A few that are quickly found, and where none of these is free others: first those of large pieces of the wrist's
   /// turns, then of smaller ones.
@@ -142,7 +151,7 @@ class Arm : public UsualBody<ArmProblem> {
       knows_all_ = false;
       return {};
     }
-    if (!world.kinematics().moves(4) || tip_is_blocked(scene_, problem_)) return states;
+    if (!world.kinematics().moves(4) || tip_is_blocked()) return states;
     for (const std::size_t enough : {std::size_t{64}, std::size_t{16'384}}) {
       const ToolPostures more =
           tool_postures(SerialChain(*problem_.table), problem_.goal_place(), problem_.start[5], enough, execution_);

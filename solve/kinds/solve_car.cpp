@@ -19,13 +19,9 @@
 #include "planners/grid/motion_lattice.hpp"
 #include "planners/shorten/redrive.hpp"
 #include "solve/kinds/car_lattice.hpp"
-#include "solve/kinds/kind_of_problem.hpp"
-#include "solve/kinds/pose_body.hpp"
 #include "solve/kinds/priced_motions.hpp"
 #include "solve/kinds/question_of_pose.hpp"
-#include "solve/kinds/sampled_roadmap.hpp"
 #include "solve/kinds/sampled_solve.hpp"
-#include "solve/kinds/solve_steps.hpp"
 #include "solve/kinds/solve_to_goal.hpp"
 #include "solve/question/planner_choice.hpp"
 #include "verify/judges/verify_price.hpp"
@@ -80,11 +76,6 @@ class Car : public PoseBody {
                              .outline = robot.outline,
                              .clearance = problem_.clearance};
     world.emplace(scene_, options, execution_);
-  }
-  bool start_stands_free() const { return goal_stands_free(problem_.start); }
-  bool goal_stands_free(const Se2& pose) const {
-    const double margin = end_margin(scene_, problem_, execution_);
-    return judged(std::span(&pose, 1), {.clearance = problem_.clearance + margin}).verified;
   }
   static double length(const World& world, const Se2& a, const Se2& b) {
     return Curve::turns_on_spot ? norm(b.position() - a.position()) : world.distance(a, b);
@@ -155,7 +146,7 @@ class Car : public PoseBody {
   void judge(const World& world, const Path<Se2>& path, Answer& answer) const {
     const std::vector<Se2> poses = joints(world, path);
     const StageTimer timer(execution_, "verify", answer.seconds.verify, poses.size());
-    const Verification found = judged(poses, verify_options(problem_));
+    const Verification found = pose_judge().judged(poses, verify_options(problem_));
     take_poses(answer, found, poses);
     answer.path_figures.push_back({"steering", std::string(name_of(problem_.robot.steering))});
     answer.path_figures.push_back({"cusps", std::uint64_t{found.cusps}});
@@ -197,13 +188,10 @@ class Car : public PoseBody {
     for (std::size_t i = 1; i < path.size(); ++i) append_joints(poses, world.curve(path[i - 1], path[i]));
     return poses;
   }
-  Verification judged(std::span<const Se2> poses, const PoseVerifyOptions& options) const {
-    return verify_car(scene_, problem_.robot, poses, options, execution_, judged_);
-  }
   /// As the judge has it.
   double paid(const World& world, const Path<Se2>& path) const {
     const std::vector<Se2> poses = joints(world, path);
-    const Verification found = judged(poses, verify_options(problem_));
+    const Verification found = pose_judge().judged(poses, verify_options(problem_));
     const PriceParts price = verify_body_price(scene_, poses, problem_.robot, prices_, execution_);
     return found.length + driving(found).sum() + price.sum();
   }
@@ -250,7 +238,8 @@ class Car : public PoseBody {
                      .unit = search.unit};
     answer.counters.expanded += over.found.expanded;
     answer.counters.edges_checked += over.found.checked;
-    answer.counters.refused += lattice->refused();
+    answer.counters.edges_free += lattice->free_motions();
+    answer.counters.refused += lattice->refused_motions();
     answer.iterations = over.found.rounds;
     if (over.found.found()) over.path = lattice->poses(over.found.path);
     return over;

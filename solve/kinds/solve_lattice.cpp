@@ -90,7 +90,7 @@ std::vector<std::uint32_t> headings_around(const HeadingLayers& layers, const La
 }
 
 /// The cells around a pose that a body can reach on its way to the lattice, in the lattice's coordinates.
-OccupancyMap cut_out(const OccupancyMap& map, const Se2& pose, double reach) {
+OccupancyMap cut_out(const OccupancyMap& map, const Se2& pose, double reach, const Execution& execution) {
   const double room = std::min(std::ceil(reach / map.cell) + widest_join + 2, 4294967295.0);
   const auto clamped = [](double x, std::uint32_t end) { return bounded_whole<std::uint32_t>(x, 0.0, end); };
   const std::uint32_t left = clamped(std::floor(pose.x / map.cell) - room, map.width() - 1);
@@ -100,8 +100,9 @@ OccupancyMap cut_out(const OccupancyMap& map, const Se2& pose, double reach) {
   OccupancyMap cut;
   cut.cell = map.cell;
   cut.origin = {left * map.cell, low * map.cell};
-  cut.blocked = Bitmap(std::max(right, left + 1) - left, std::max(high, low + 1) - low);
+  cut.blocked = cell_bitmap(std::max(right, left + 1) - left, std::max(high, low + 1) - low, execution);
   for (std::uint32_t y = 0; y < cut.height(); ++y) {
+    execution.check();
     for (std::uint32_t x = 0; x < cut.width(); ++x) {
       if (map.blocked.test(left + x, low + y)) cut.blocked.set(x, y);
     }
@@ -111,39 +112,34 @@ OccupancyMap cut_out(const OccupancyMap& map, const Se2& pose, double reach) {
 
 /// Around an end of a body that turns.
 Se2World turning_world(const Scene& scene, const PoseProblem& problem, const Se2& pose, const Execution& execution) {
-  const Se2Options options{.clearance = problem.clearance};
-  if (!scene.map) return {scene, problem.robot.outline, options, execution};
+  if (!scene.map) return {scene, problem.robot.outline, problem.clearance, execution};
   Scene around;
-  around.map = cut_out(*scene.map, pose, problem.clearance + outline_reach(problem.robot.outline));
+  around.map = cut_out(*scene.map, pose, problem.clearance + outline_reach(problem.robot.outline), execution);
   add_map_walls(around, execution);
-  return {around, problem.robot.outline, options, execution};
+  return {around, problem.robot.outline, problem.clearance, execution};
 }
 
 /// Where a lattice's coordinates lie in the world: those of a scene are the world's own, those of a map begin in its
 /// corner and turn with it.
 class LatticeFrame {
  public:
-  explicit LatticeFrame(const Scene& scene) {
-    if (!scene.map) return;
-    origin_ = scene.map->origin;
-    yaw_rad_ = scene.map->yaw_rad;
-    is_moved_ = !(origin_ == Vec2{}) || yaw_rad_ != 0.0;
-  }
+  explicit LatticeFrame(const Scene& scene)
+      : corner_(scene.map ? Se2{scene.map->origin.x, scene.map->origin.y, scene.map->yaw_rad} : Se2{}),
+        turn_(corner_.theta),
+        turn_back_(-corner_.theta) {}
   Se2 in_world(const Se2& pose) const {
-    if (!is_moved_) return pose;
-    const Vec2 p = origin_ + Rotation(yaw_rad_)(pose.position());
-    return {p.x, p.y, pose.theta + yaw_rad_};
+    const Vec2 p = corner_.position() + turn_(pose.position());
+    return {p.x, p.y, pose.theta + corner_.theta};
   }
   Se2 in_lattice(const Se2& pose) const {
-    if (!is_moved_) return pose;
-    const Vec2 p = Rotation(-yaw_rad_)(pose.position() - origin_);
-    return {p.x, p.y, pose.theta - yaw_rad_};
+    const Vec2 p = turn_back_(pose.position() - corner_.position());
+    return {p.x, p.y, pose.theta - corner_.theta};
   }
 
  private:
-  bool is_moved_ = false;
-  Vec2 origin_;
-  double yaw_rad_ = 0.0;
+  Se2 corner_;
+  Rotation turn_;
+  Rotation turn_back_;
 };
 
 /// The pose of a state, in the lattice's coordinates.
@@ -272,7 +268,7 @@ class LatticeSolve {
   /// Where a tolerance or region lets the path end, of what the lattice joins to the start: the nearest to the goals;
   /// in a region the cheapest alone.
   std::vector<GoalPlace> places() {
-    if (layer_options_.kind == LayerKind::report004) {
+    if (is_report()) {
       throw UsageError("@layers: report 004's promise nothing; where the goal is a choice they must be exact");
     }
     layers_ = layers();
@@ -295,6 +291,8 @@ class LatticeSolve {
 
  private:
   bool turns() const { return problem_.robot.kind == RobotKind::polygon; }
+  /// Its discs say what is blocked, and promise nothing.
+  bool is_report() const { return layer_options_.kind == LayerKind::report004; }
   std::vector<LayerEnd> ends_in_region(const GoalPlaces& places, double radius) const {
     std::vector<LayerEnd> ends;
     for (const std::vector<double>& goal : goals_of(request_.scene, request_.question)) {
@@ -325,7 +323,7 @@ class LatticeSolve {
     if (search_.face_motion) add("face_motion", true);
     if (search_.step_cost != 1.0) add("step_cost", search_.step_cost);
     if (search_.turn_cost != 1.0) add("turn_cost", search_.turn_cost);
-    if (layer_options_.kind == LayerKind::report004) add("layers", std::string("report004"));
+    if (is_report()) add("layers", std::string("report004"));
   }
 
   void describe_layers() {
@@ -391,8 +389,7 @@ class LatticeSolve {
   std::vector<LayerEnd> ends_at(std::string_view option, const Se2& pose, bool any_heading) const {
     const LatticeEnd end{frame_.in_lattice(pose), any_heading};
     std::vector<LayerEnd> states = states_at(layers_, end);
-    const bool is_report = layer_options_.kind == LayerKind::report004;
-    if (states.empty() && is_report) {
+    if (states.empty() && is_report()) {
       throw UsageError(
           fmt::format("{}: {}, {}, {} is no state of the grid, and report 004's layers join no others: {} "
                       "+ {} i, {} + {} j, {} headings",
@@ -401,24 +398,23 @@ class LatticeSolve {
     }
     const bool any_free = std::ranges::any_of(
         states, [&](const LayerEnd& e) { return layers_.is_free(e.state.i, e.state.j, e.state.k); });
-    if (any_free || is_report) return states;
-    return joined(end);
+    return any_free || is_report() ? states : joined(end);
   }
 
   /// Does the body fit at its ends, in some heading where any will do, as the verification sees it?
-  void settle_ends() {
-    answer_.outcome = Outcome::start_blocked;
-    const double margin = end_margin(request_.scene, problem_, request_.execution);
-    settle_blocked_poses(answer_, request_.scene, problem_, request_.execution,
-                         [&](const Se2& pose) { return judged(std::span(&pose, 1), false, margin).verified; });
+  Outcome settled_ends() const {
+    const Scene& scene = request_.scene;
+    if (turns()) return PoseJudge{scene, problem_, request_.execution}.settled(Outcome::start_blocked);
+    const WallProblem round{problem_.robot, problem_.start.position(), problem_.goal_pose().position(),
+                            problem_.clearance};
+    return PointJudge{scene, round, request_.execution}.settled(Outcome::start_blocked);
   }
 
   void search() {
     const StageTimer timer(request_.execution, "search", answer_.seconds.search, layers_.states());
-    const bool is_report = layer_options_.kind == LayerKind::report004;  // its discs say what is blocked
-    if (!is_report) settle_ends();
+    if (!is_report()) answer_.outcome = settled_ends();
     if (is_blocked(answer_.outcome)) return;
-    if (!is_report && problem_.is_at_goal()) {
+    if (!is_report() && problem_.is_at_goal()) {
       answer_.outcome = Outcome::solved;
       return take({});  // without a move, whatever the states around it would say
     }
@@ -430,7 +426,7 @@ class LatticeSolve {
                           : !path.goal_free                    ? Outcome::goal_blocked
                           : path.status == SearchStatus::found ? Outcome::solved
                                                                : Outcome::not_connected;
-    answer_.outcome = is_blocked(found) && !is_report ? Outcome::not_connected : found;
+    answer_.outcome = is_blocked(found) && !is_report() ? Outcome::not_connected : found;
     if (answer_.outcome == Outcome::solved) take(path);
   }
 
@@ -470,26 +466,22 @@ class LatticeSolve {
     if (poses_.size() > 1 || !is_there(goal, problem_.start, !turns())) poses_.push_back(goal);
   }
 
-  Verification judged(std::span<const Se2> poses, bool ends_too, double margin = 0.0) const {
-    if (turns()) {
-      PoseVerifyOptions options;
-      if (ends_too) options = verify_options(problem_);
-      options.clearance = problem_.clearance + margin;
-      return verify_se2(request_.scene, problem_.robot.outline, poses, options, request_.execution);
-    }
+  /// Of a point or disc wherever the path begins and ends.
+  Verification judged(std::span<const Se2> poses, const PoseVerifyOptions& options) const {
+    if (turns()) return verify_se2(request_.scene, problem_.robot.outline, poses, options, request_.execution);
     std::vector<Vec2> path;
     for (const Se2& pose : poses) path.push_back(pose.position());
-    const VerifyOptions options{.radius = problem_.robot.radius, .clearance = problem_.clearance + margin};
-    return verify_path(request_.scene, path, options, request_.execution);
+    return verify_path(request_.scene, path, {.radius = problem_.robot.radius, .clearance = options.clearance},
+                       request_.execution);
   }
 
   void verify() {
     const StageTimer timer(request_.execution, "verify", answer_.seconds.verify, answer_.path.size());
-    const Verification verification = judged(poses_, layer_options_.kind == LayerKind::exact);
-    const bool is_promised = layer_options_.kind == LayerKind::exact;  // report 004's discs are none
-    if (!verification.verified && !is_promised) return refute(answer_, verification);
-    take_verdict(answer_, verification);
-    if (turns()) answer_.turn_rad = verification.turn_rad;
+    const PoseVerifyOptions anywhere{.clearance = problem_.clearance};
+    const Verification found = judged(poses_, is_report() ? anywhere : verify_options(problem_));
+    if (!found.verified && is_report()) return refute(answer_, found);
+    take_verdict(answer_, found);
+    if (turns()) answer_.turn_rad = found.turn_rad;
   }
 
   /// The layers nearest to some headings, which course reports show.
@@ -518,14 +510,13 @@ class LatticeSolve {
   Answer answer_;
 };
 
-Answer solve_lattice(const SolveRequest& request) { return answered(LatticeSolve(request)); }
-
 }  // namespace
 
 std::vector<GoalPlace> places_on_layers(const SolveRequest& request) { return LatticeSolve(request).places(); }
 
 SolveKind lattice_kind() {
-  return {"a body on a grid in a scene", fits_lattice, lattice_planners, usually<PlannerKind::grid>, solve_lattice};
+  return {"a body on a grid in a scene", fits_lattice, lattice_planners, usually<PlannerKind::grid>,
+          [](const SolveRequest& request) { return answered(LatticeSolve(request)); }};
 }
 
 }  // namespace warren

@@ -20,7 +20,6 @@
 #include "solve/kinds/plane_steps.hpp"
 #include "solve/kinds/priced_motions.hpp"
 #include "solve/kinds/sampled_solve.hpp"
-#include "solve/kinds/solve_steps.hpp"
 #include "solve/kinds/solve_to_goal.hpp"
 #include "solve/question/planner_choice.hpp"
 #include "spatial/maps/free_cells.hpp"
@@ -58,13 +57,6 @@ const MapPrices* take_prices(std::optional<MapPrices>& prices, const OccupancyMa
   if (!problem.prices.empty()) prices.emplace(map, problem.robot.radius, problem.prices, execution);
   if (prices && !prices->is_priced()) prices.reset();
   return prices ? &*prices : nullptr;
-}
-
-/// Refers to both.
-LegPrices leg_prices(const MapPrices* prices, MapPrices::Scratch& scratch) {
-  if (prices == nullptr) return {};
-  return {[prices, &scratch](Vec2 a, Vec2 b) { return prices->cost(a, b, scratch); },
-          [prices, &scratch](Cell from, unsigned direction) { return prices->step_up(from, direction, scratch); }};
 }
 
 /// Does the question name no goal but places to visit?
@@ -163,9 +155,7 @@ class CellSolve {
   void add_alternatives() {
     const RouteRule& route = request_.question.route;
     if (!route.alternatives || !answer_.verified) return;
-    std::function<PriceParts(Vec2, Vec2)> parts;
-    if (prices_) parts = [this](Vec2 a, Vec2 b) { return prices_->parts(a, b, scratch()); };
-    take_alternatives(answer_, route, ways(), distances(), parts, request_.execution);
+    take_alternatives(answer_, route, ways(), distances(), request_.execution);
   }
 
   /// Where there is more to decide than the way to one place.
@@ -197,14 +187,13 @@ class CellSolve {
   GoalChoice choose() {
     const StageTimer timer(request_.execution, "search", answer_.seconds.search, map_.blocked.size());
     answer_.search = "field";
-    GoalChoice choice = choose_goal(ways(), map_, problem_, request_.options.trees.via, has_open_end(request_));
+    GoalChoice choice = choose_goal(ways(), request_.options.trees.via, has_open_end(request_));
     answer_.counters.expanded += ways().expanded();
     return choice;
   }
   WaysOverCells& ways() {
     if (!ways_) {
-      ways_.emplace(map_, problem_, closed_, blocked(), grid_.diagonal, leg_prices(prices_, scratch()),
-                    request_.execution, kept_);
+      ways_.emplace(map_, problem_, closed_, blocked(), grid_.diagonal, prices_, &scratch(), request_.execution, kept_);
     }
     return *ways_;
   }
@@ -238,8 +227,8 @@ class CellSolve {
     }
   }
 
-  /// Paths over cells alone are farther from any bound than gaps that are asked for.
   MapPrices::Scratch& scratch() { return kept_ != nullptr ? kept_->scratch() : scratch_; }
+  /// Paths over cells alone are farther from any bound than gaps that are asked for.
   bool wants_taut() const { return prices_ || request_.options.optimise || request_.options.anytime.gap; }
 
   void index() {
@@ -300,8 +289,8 @@ class CellSolve {
                                                    : GridWorld(map, problem_.reach(), request_.execution);
     answer_.raw_length = path_length(answer_.path, GridWorld::distance);
     if (prices_) return pull(world);
-    answer_.path = shorter_path(WorldView(world), std::move(answer_.path), GridWorld::distance, {.seed = answer_.seed},
-                                request_.execution, answer_.counters);
+    answer_.path = planned<Vec2>().shorter(WorldView(world), std::move(answer_.path), GridWorld::distance,
+                                           {.seed = answer_.seed}, request_.execution, answer_.counters);
   }
 
   /// Under the price, off the grid.
@@ -372,10 +361,7 @@ class BodyOnMap : public PointBody<MapPrices> {
   bool provably_apart(const World& world, const std::vector<Vec2>&) const {
     return warren::provably_apart(world.map(), world.map().blocked, problem_, execution_);
   }
-  bool goal_stands_free(Vec2 goal) const {
-    return starts_on_water(map_, problem_.start) || PointBody::goal_stands_free(goal);
-  }
-  const MotionCost& price_motions(const World& world) { return price_in(world.map(), execution_); }
+  const MotionLength<Vec2>& price_motions(const World& world) { return price_in(world.map(), execution_); }
   Path<Vec2> shortened(const World& world, Path<Vec2> path, Answer& answer) const {
     if (cost_) return pulled_taut(world, std::move(path), cost_, map_.cell, execution_);
     return shortcut(world, std::move(path), World::distance, answer);
@@ -411,8 +397,8 @@ Answer solve_chosen(const SolveRequest& request) {
     std::optional<MapPrices> prices;
     const MapPrices* priced = take_prices(prices, map, problem, request.execution);
     MapPrices::Scratch scratch;
-    WaysOverCells ways(map, problem, closed, wide, Diagonal::sqrt2, leg_prices(priced, scratch), request.execution);
-    choice = choose_goal(ways, map, problem, {}, has_open_end(request));
+    WaysOverCells ways(map, problem, closed, wide, Diagonal::sqrt2, priced, &scratch, request.execution);
+    choice = choose_goal(ways, {}, has_open_end(request));
     chosen.counters.expanded += ways.expanded();
     take_choice(chosen, choice, choice.outcome);
     if (choice.outcome != Outcome::solved)
@@ -500,8 +486,7 @@ Answer solve_on_skeleton(const SolveRequest& request) {
   const WallProblem problem = map_problem(request.scene, request.question);
   const OccupancyMap& map = *request.scene.map;
   const SearchChoice search = search_choice(request.options);
-  const SkeletonOptions options{.radius = problem.reach() / map.cell,
-                                .objective = request.options.axis.objective.value_or(AxisObjective::length),
+  const SkeletonOptions options{.objective = request.options.axis.objective.value_or(AxisObjective::length),
                                 .search = search.search,
                                 .queue = search.queue};
   Answer answer;
@@ -516,11 +501,12 @@ Answer solve_on_skeleton(const SolveRequest& request) {
     std::vector<std::pair<Cell, Cell>> steps;
     auto* kept = request.keep != nullptr ? &steps : nullptr;
     const SkeletonRoadmap* known = asked_roadmap<SkeletonRoadmap>(request);
-    take_skeleton_path(answer,
-                       known != nullptr ? plan_on_skeleton(*known, start, goal, options, request.execution, kept)
-                                        : plan_on_skeleton(closed_cells(map, problem.start), start, goal, options,
-                                                           request.execution, kept),
-                       map, problem);
+    std::optional<SkeletonRoadmap> made;
+    if (known == nullptr) {
+      const StageTimer timer(request.execution, "index", answer.seconds.index, map.blocked.size());
+      known = &made.emplace(closed_cells(map, problem.start), problem.reach() / map.cell, request.execution);
+    }
+    take_skeleton_path(answer, plan_on_skeleton(*known, start, goal, options, request.execution, kept), map, problem);
     // The skeleton was asked about the middles of the cells.
     if (is_blocked(answer.outcome)) answer.outcome = Outcome::not_connected;
     if (problem.start == problem.goal) stay(answer, problem);

@@ -25,11 +25,9 @@
 #include "planners/visibility/visibility_graph.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "solve/kinds/geometric_roadmaps.hpp"
-#include "solve/kinds/kind_of_problem.hpp"
 #include "solve/kinds/plane_steps.hpp"
 #include "solve/kinds/priced_motions.hpp"
 #include "solve/kinds/sampled_solve.hpp"
-#include "solve/kinds/solve_steps.hpp"
 #include "worlds/plane/polygon_world.hpp"
 #include "worlds/prices/map_prices.hpp"
 
@@ -38,11 +36,9 @@ namespace {
 
 /// Does start or goal stand on a seam, strictly inside of a polygon that was cut there? Says so in the answer.
 bool stand_on_seams(const SolveRequest& request, const WallProblem& problem, Answer& answer) {
-  const bool goal_blocked = stands_on_seam(request.scene, problem.goal);
-  const bool start_blocked = stands_on_seam(request.scene, problem.start);
-  if (goal_blocked) answer.outcome = Outcome::goal_blocked;
-  if (start_blocked) answer.outcome = Outcome::start_blocked;
-  return start_blocked || goal_blocked;
+  if (stands_on_seam(request.scene, problem.goal)) answer.outcome = Outcome::goal_blocked;
+  if (stands_on_seam(request.scene, problem.start)) answer.outcome = Outcome::start_blocked;
+  return is_blocked(answer.outcome);
 }
 
 /// The scene's obstacles for planners; the time is that of the stage `index`.
@@ -112,25 +108,21 @@ class SampledVisibilitySolve {
   double proof_s() const { return proof_s_; }
 
  private:
-  SearchResult search(const Graph& graph, VertexId start, VertexId goal) const {
-    SearchState state;
-    if (!has_queue(how_.search)) return search_blindly(how_.search, graph, start, goal, state, request_.execution);
-    const auto neighbours = [&](VertexId v, const auto& visit) {
-      for (const VertexId w : graph.neighbours(v)) visit(w, distance(points_[v], points_[w]));
-    };
-    const bool informed = how_.search == SearchKind::astar;
-    const auto remaining = [&](VertexId v) { return informed ? distance(points_[v], points_[goal]) : 0.0; };
-    return search_best_first(how_.queue, graph.vertex_count(), start, goal, neighbours, remaining, state,
-                             request_.execution);
-  }
-
   void search(Answer& answer) {
     const StageTimer timer(request_.execution, "search", answer.seconds.search);
     const Graph graph = assemble_graph(points_.size(), edges_, request_.execution);
     const auto goal = static_cast<VertexId>(points_.size() - 1);
-    const SearchResult found = search(graph, goal - 1, goal);
+    const auto length = [this](VertexId v, VertexId w) { return distance(points_[v], points_[w]); };
+    const VertexDistance apart(length);
+    const SearchResult found = search_roadmap(graph, {.start = goal - 1,
+                                                      .goal = goal,
+                                                      .length = apart,
+                                                      .estimate = apart,
+                                                      .search = how_.search,
+                                                      .queue = how_.queue,
+                                                      .execution = request_.execution,
+                                                      .estimate_fits = false});  // from the start alone
     answer.counters.expanded = found.expanded;
-    if (found.status == SearchStatus::stopped) request_.execution.check();
     answer.outcome = found.status == SearchStatus::found ? Outcome::solved : Outcome::not_connected;
     for (const VertexId v : found.path) answer.path.push_back(points_[v]);
   }
@@ -215,13 +207,6 @@ ArcPath arcs_of(const DiscPath& path) {
   return arcs;
 }
 
-void tell_bracket(const DiscPath& path, Answer& answer) {
-  const double drawn = path_length(answer.path, [](Vec2 a, Vec2 b) { return distance(a, b); });
-  answer.path_figures.push_back({"arcs", path.arcs()});
-  answer.path_figures.push_back({"excess", std::max(0.0, drawn - path.length)});
-  answer.lower_bound = path.lower_bound;
-}
-
 void solve_disc(const SolveRequest& request, const WallProblem& problem, Answer& answer) {
   const DiscPath path = plan_disc(request, problem, answer);
   answer.outcome = path.outcome;
@@ -231,7 +216,10 @@ void solve_disc(const SolveRequest& request, const WallProblem& problem, Answer&
   answer.counters.expanded = path.arrivals;
   if (path.outcome == Outcome::solved) {
     answer.path = polyline_of(path, request.execution);
-    tell_bracket(path, answer);
+    const double drawn = path_length(answer.path, [](Vec2 a, Vec2 b) { return distance(a, b); });
+    answer.path_figures.push_back({"arcs", path.arcs()});
+    answer.path_figures.push_back({"excess", std::max(0.0, drawn - path.length)});
+    answer.lower_bound = path.lower_bound;
     if (request.keep != nullptr) request.keep->arcs = arcs_of(path);
   }
   const PointJudge judge = judge_of(request, problem);
@@ -270,7 +258,7 @@ Answer solve_by_cells(const SolveRequest& request) {
   const CellOptions options = cell_options(request.options, search);
   Answer answer;
   describe_plane_planner(answer, request, problem, search);
-  answer.options.push_back(doors_option(options));
+  answer.options.push_back({"doors", std::string(name_of(options.doors))});
   answer_within_limits(answer, [&] {
     const CellRoadmap* known = asked_roadmap<CellRoadmap>(request);
     PlaneObstacles obstacles;
@@ -296,8 +284,8 @@ Answer solve_by_cells(const SolveRequest& request) {
 NamedLines lines_of(const MedialAxis& axis) {
   NamedLines lines{"medial_axis", {}};
   std::vector<Vec2> points;
-  for (const AxisEdge& edge : axis.edges()) {
-    points.assign(1, axis.vertices()[edge.from]);
+  for (const AxisEdge& edge : axis.edges) {
+    points.assign(1, axis.vertices[edge.from]);
     axis.curve(edge).append_polyline(points);
     lines.lines.add(points);
   }
@@ -339,7 +327,6 @@ class PointAmongPolygons : public PointBody<SidePrices> {
  public:
   using World = PolygonWorld;
   static constexpr bool names_pipeline = true;
-  static constexpr bool judged_by_index = true;
   static constexpr bool improves_by_draws = false;
 
   explicit PointAmongPolygons(const SolveRequest& request)
@@ -347,7 +334,7 @@ class PointAmongPolygons : public PointBody<SidePrices> {
                                        fmt::format("{} keeps off the walls", name_of(request.planner)))) {}
 
   void index(std::optional<World>& world, SamplerKind) const { world.emplace(scene_, problem_.reach(), execution_); }
-  const MotionCost& price_motions(const World& world) { return price_in(world.sides()); }
+  const MotionLength<Vec2>& price_motions(const World& world) { return price_in(world.sides()); }
   Path<Vec2> shortened(const World& world, const Path<Vec2>& path, Answer&) const {
     constexpr double steps_a_path = 100.0;
     const double step = path_length(path, World::distance) / steps_a_path;
@@ -385,8 +372,6 @@ CellOptions cell_options(const SolveOptions& asked, const SearchChoice& search) 
   }
   return options;
 }
-
-NamedFigure doors_option(const CellOptions& options) { return {"doors", std::string(name_of(options.doors))}; }
 
 NamedLines doors_of(const CellDecomposition& cells) {
   NamedLines doors{"cells", {}};

@@ -2,23 +2,18 @@
 #include "solve/kinds/solve_steps.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
+#include <type_traits>
 
 #include "solve/kinds/plane_steps.hpp"
 #include "solve/question/asked_words.hpp"
-#include "verify/judges/effective_scene.hpp"
 #include "verify/judges/verify_price.hpp"
 #include "verify/streamed/verify_cells.hpp"
 
 namespace warren {
 namespace {
-
-bool asks_price(const Prices& prices) {
-  const AskedWords asked = words_in(prices);
-  const std::vector<AskedWord> words = price_words.members();
-  return std::ranges::any_of(words, [&](AskedWord word) { return asked.has(word); });
-}
 
 double largest_coordinate_of(const Scene& scene, const Execution& execution) {
   double largest = 0.0;
@@ -39,7 +34,45 @@ double largest_coordinate_of(const Scene& scene, const Execution& execution) {
   return largest;
 }
 
+Figure option_figure(bool value) { return value; }
+template <class T>
+Figure option_figure(const std::optional<T>& value) {
+  if constexpr (NamedEnum<T>) return std::string(name_of(*value));
+  if constexpr (std::is_same_v<T, double>) return *value;
+  if constexpr (std::is_integral_v<T>) return std::uint64_t{*value};
+}
+/// "0.5" or "0.5,0.1".
+Figure option_figure(const std::optional<GrowingAttach>& attach) {
+  const std::string radius = attach->radius ? fmt::format("{}", *attach->radius) : "";
+  return attach->step ? fmt::format("{},{}", radius, *attach->step) : radius;
+}
+/// "1,2;3,4,0.5"
+Figure option_figure(const std::vector<std::vector<double>>& via) {
+  std::string text;
+  for (const std::vector<double>& state : via)
+    text += fmt::format("{}{}", text.empty() ? "" : ";", fmt::join(state, ","));
+  return text;
+}
+
+/// "tree,restarts"
+Figure option_figure(const std::vector<AnytimePart>& parts) {
+  std::string text;
+  for (const AnytimePart part : parts) text.append(text.empty() ? "" : ",").append(name_of(part));
+  return text;
+}
+
 }  // namespace
+
+std::vector<NamedFigure> given_figures(const SolveOptions& options) {
+  std::vector<NamedFigure> figures;
+  const auto add = [&]<class T>(Option option, OptionRange, const T& field) {
+    const bool is_star = star_option(options) == option;
+    if (option == Option::sampler || option == Option::search || (field == T{} && !is_star)) return;
+    figures.push_back({std::string(name_of(option)), is_star ? Figure(std::string("star")) : option_figure(field)});
+  };
+  visit_options(add, options);
+  return figures;
+}
 
 std::size_t judge_bytes(const Scene& scene) {
   constexpr std::size_t fixed = std::size_t{1} << 20U;
@@ -94,13 +127,14 @@ bool PointJudge::stands_free(Vec2 p) const {
   return judged(std::span(&p, 1), end_options(problem)).verified;
 }
 
+bool PointJudge::goal_stands_free(Vec2 goal) const {
+  const bool stays_on_water = scene.map && starts_on_water(*scene.map, problem.start) && cell_at(*scene.map, goal);
+  return stays_on_water || stands_free(goal);
+}
+
 Outcome PointJudge::settled(Outcome outcome) const {
-  const auto stays_on_water = [&] {
-    return scene.map && starts_on_water(*scene.map, problem.start) && cell_at(*scene.map, problem.goal);
-  };
   return settled_ends(
-      outcome, [&] { return stands_free(problem.start); },
-      [&] { return stays_on_water() || stands_free(problem.goal); });
+      outcome, [&] { return stands_free(problem.start); }, [&] { return goal_stands_free(problem.goal); });
 }
 
 std::string_view cause_of_separation(const Answer& answer, bool by_roadmap) {
@@ -113,14 +147,13 @@ std::string_view cause_of_separation(const Answer& answer, bool by_roadmap) {
 void price_heuristic(Answer& answer, std::optional<HeuristicKind> asked,
                      const std::function<Answer(HeuristicKind)>& ask) {
   if (!asked || asked == HeuristicKind::euclidean || !answer.verified) return;
-  try {
+  stopped_by([&] {
     const Answer exact = ask(HeuristicKind::euclidean);
     if (!exact.verified) return;
     answer.path_figures.push_back({"searched_length", answer.raw_length.value_or(answer.length)});
     answer.path_figures.push_back({"shortest_length", exact.length});
     answer.path_figures.push_back({"shortest_expanded", exact.counters.expanded});
-  } catch (const Stopped&) {
-  }
+  });
 }
 
 void claim_nothing(Answer& answer) {
@@ -197,7 +230,8 @@ double end_margin(const Scene& scene, const RobotSpec& robot, double clearance, 
 std::optional<PriceParts> judged_price(const Scene& scene, const Prices& prices, const RobotSpec& robot,
                                        const RecordedAnswer& answer, const Execution& execution) {
   const bool turns = robot.kind == RobotKind::polygon || robot.kind == RobotKind::car;
-  if (!asks_price(prices) || answer.path.empty()) return std::nullopt;
+  const bool only_restricts = (words_in(prices) | restriction_words) == restriction_words;
+  if (only_restricts || answer.path.empty()) return std::nullopt;
   if (turns) return verify_body_price(scene, poses_of(answer.states), robot, prices, execution);
   if (!is_round(robot)) return std::nullopt;
   return verify_price(scene, answer.path, prices, robot.radius, execution);

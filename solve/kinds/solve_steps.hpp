@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // From what a planner found to what the program answers, for points and discs of the plane: the solution is taken over,
-// its path verified, and a stop is made an answer.
+// its path verified, and a stop is made an answer. And what no path of a problem can be shorter than (lower_bound.cpp).
 #pragma once
 
 #include <algorithm>
@@ -16,6 +16,7 @@
 #include "core/run/execution.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/answer/answer.hpp"
+#include "solve/answer/by_products.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 #include "solve/question/planner_choice.hpp"
 #include "solve/question/question.hpp"
@@ -23,7 +24,7 @@
 
 namespace warren {
 
-class LookedUpWalls;  // verify/streamed/looked_up_walls.hpp
+class LookedUpWalls;  // verify/streamed/verify_cells.hpp
 
 /// SolveKind::usual of a kind whose questions all have the same usual planner.
 template <PlannerKind planner>
@@ -35,6 +36,9 @@ PlannerKind usually(const SolveOptions&, const Scene&, const Question&) {
 /// the answer repeats them.
 PlannerOptions describe_roadmap_planner(Answer& answer, const Scene& scene, const WallProblem& problem,
                                         const SolveOptions& asked);
+
+/// The options that are given as answers repeat them: all but sampler and search, which answers name anyway.
+std::vector<NamedFigure> given_figures(const SolveOptions& options);
 
 /// Outcome, path, sizes, counters and times of a solution.
 void take_solution(Answer& answer, Solution<Vec2> solution);
@@ -66,7 +70,8 @@ struct PointJudge {
   Verification judged(std::span<const Vec2> path, const VerifyOptions& options) const;
   /// Does the body fit there as an end?
   bool stands_free(Vec2 p) const;
-  /// What is said of the ends where the outcome calls one blocked. On a map who starts on water may stay there.
+  bool goal_stands_free(Vec2 goal) const;  ///< on a map who starts on water may stay there
+  /// What is said of the ends where the outcome calls one blocked.
   Outcome settled(Outcome outcome) const;
   /// Verifies the path of a solved answer and fills in length and clearance. A path that fails is a bug: throws as
   /// fail_verification(). On a map a disc's path over_cells may fail between an end and the middle of its cell, and an
@@ -177,6 +182,32 @@ std::optional<PriceParts> driving_price(const RecordedAnswer& answer, const Verd
 /// Price and cost of a verified answer, by the verification's own view of what the prices close and open. has_stops: a
 /// car's gear may change where the legs meet. Throws RefutedPathError, Stopped.
 void judge_prices(Answer& answer, const Scene& scene, const Question& question, bool has_stops,
+                  const Execution& execution);
+
+/// What is bounded: the length that answers tell, or what planners that get better tell as cost, the body's metric:
+/// they differ for polygons that turn alone (worlds/poses/se2_world.hpp, with the usual weight of a turn).
+enum class BoundOf : std::uint8_t { length, metric };
+
+/// simple: costs nothing. exact: milliseconds, and seconds where there are many corners.
+enum class BoundEffort : std::uint8_t { simple, exact };
+
+/// Above, shortest ways take too long for what they tell.
+inline constexpr std::size_t largest_bounded_corners = 100'000;
+
+/// What no path of the problem can be shorter than; >= 0. `scene`: as it is planned in, with a map's borders as walls
+/// or without. Never throws Stopped. Throws as table_of() where an arm's table can't be read.
+double proved_bound(const Scene& scene, const Problem& problem, BoundOf of, BoundEffort effort,
+                    const Execution& execution);
+
+/// The bound of a verified answer, and whether that proves its path the shortest. One that has a bound, or was found
+/// to be optimal, keeps that. None is told of paths through way-points, nor where the cost is in units of the planner's
+/// own.
+void tell_bound(Answer& answer, const Scene& scene, const SolveOptions& options, const Execution& execution);
+
+/// Where a bound, a gap or a certificate is asked of a verified answer of grid on a map: the best bound of all paths
+/// that is found until the gap is reached; of a certificate that is asked for, what it proves. `scene`: as it is
+/// planned in. Stops leave the bound that there is.
+void prove_on_map(Answer& answer, const Scene& scene, const SolveOptions& options, ByProducts* keep,
                   const Execution& execution);
 
 /// The box in which reference points of bodies of the plane may be: map, bounds, or what the obstacles fill. Throws

@@ -99,6 +99,12 @@ void add_by_products(ByProducts& whole, ByProducts made) {
   put_before(whole.arcs.turns, made.arcs.turns);
 }
 
+[[noreturn]] void refuse_stop(const SolveRequest& request, std::pair<std::string_view, std::string_view> stop,
+                              std::size_t number) {
+  throw UsageError(fmt::format("{}: the {} does not fit at {} {}", stop.first,
+                               name_of(robot_of(request.scene, request.question).kind), stop.second, number + 1));
+}
+
 class ThroughStops {
  public:
   ThroughStops(const SolveRequest& request, std::span<const std::vector<double>> stops,
@@ -160,10 +166,7 @@ class ThroughStops {
       answer = solve_leg_(of_leg);
     }
     if (keep != nullptr) add_by_products(*keep, std::move(made));
-    if (!is_last && turned == nullptr && answer.outcome == Outcome::goal_blocked) {
-      const std::string_view body = name_of(robot_of(request_.scene, request_.question).kind);
-      throw UsageError(fmt::format("{}: the {} does not fit at {} {}", stop_.first, body, stop_.second, leg + 1));
-    }
+    if (!is_last && turned == nullptr && answer.outcome == Outcome::goal_blocked) refuse_stop(request_, stop_, leg);
     const bool goes_on = answer.outcome == Outcome::solved && answer.verified;
     is_timed_ |= enum_named<StopReason>(answer.ended_by).has_value();
     add_work(work_, answer);
@@ -343,10 +346,7 @@ class Visits {
     std::vector<double> first;
     for (std::size_t i = 0; i < count; ++i) {
       Answer found = way(start_, rule_.visit[i]);
-      if (found.outcome == Outcome::goal_blocked) {
-        throw UsageError(fmt::format("{}: the {} does not fit at {} {}", visited_place.first,
-                                     name_of(robot_of(request_.scene, question_).kind), visited_place.second, i + 1));
-      }
+      if (found.outcome == Outcome::goal_blocked) refuse_stop(request_, visited_place, i);
       start_ = found.problem.start;
       const bool is_cut = found.outcome == Outcome::stopped && !request_.execution.should_stop();
       if (!found.verified && !is_cut) return fail(std::move(found));
@@ -382,13 +382,12 @@ class Visits {
   /// What was not found is the dearest by far: other headings may lead on there.
   void take_order(const std::vector<double>& first, const std::vector<std::vector<double>>& between,
                   const std::vector<double>& last) {
+    std::vector<std::vector<double>> all = between;
+    all.insert(all.end(), {first, last});
     double longest = 0.0;
-    const auto look = [&](const std::vector<double>& list) {
-      for (const double cost : list) longest = std::max(longest, cost == none ? 0.0 : cost);
-    };
-    look(first);
-    look(last);
-    for (const auto& row : between) look(row);
+    for (const std::vector<double>& row : all) {
+      for (const double cost : row) longest = std::max(longest, cost == none ? 0.0 : cost);
+    }
     const double unit = longest > 0.0 ? longest * 0x1p-40 : 1.0;
     const auto units = [&](const std::vector<double>& list) {
       constexpr std::uint64_t not_found = std::uint64_t{1} << 50U;

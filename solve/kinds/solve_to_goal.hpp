@@ -28,6 +28,13 @@ struct GoalPlace {
   std::vector<double> state;  ///< 2 numbers of points and discs, else 3
   std::size_t goal = 0;       ///< the number of the goal that it is near
   double distance = 0.0;      ///< to that, world units
+  double rank = 0.0;          ///< the least are taken: the distance, or what who offers it says
+  double turn_rad = 0.0;      ///< how far the heading that was offered is off
+
+  /// In the order in which places are taken.
+  friend bool operator<(const GoalPlace& a, const GoalPlace& b) {
+    return std::pair{a.rank, a.turn_rad} < std::pair{b.rank, b.turn_rad};
+  }
 };
 
 /// Of the poses that are offered, those that a tolerance or region takes: a few of the least rank. The heading is as
@@ -44,36 +51,7 @@ class GoalPlaces {
 
   /// As the nearest goal takes it; none: no goal does.
   std::optional<GoalPlace> place(const Se2& pose) const {
-    std::optional<Offered> found = offered(pose);
-    return found ? std::optional(std::move(found->place)) : std::nullopt;
-  }
-  /// Of equal ranks the one whose heading is less off counts, and then the first. No rank: its distance.
-  void offer(const Se2& pose, std::optional<double> rank = {}) {
-    constexpr std::size_t most = 16;
-    std::optional<Offered> found = offered(pose);
-    if (!found) return;
-    found->rank = rank.value_or(found->rank);
-    kept_.insert(std::upper_bound(kept_.begin(), kept_.end(), *found), std::move(*found));
-    if (kept_.size() > most) kept_.pop_back();
-  }
-  /// The least rank first.
-  std::vector<GoalPlace> taken() {
-    std::vector<GoalPlace> places;
-    for (Offered& offered : kept_) places.push_back(std::move(offered.place));
-    return places;
-  }
-
- private:
-  struct Offered {
-    double rank;
-    double turn_rad;  // how far its heading is off
-    GoalPlace place;
-    friend bool operator<(const Offered& a, const Offered& b) {
-      return std::pair{a.rank, a.turn_rad} < std::pair{b.rank, b.turn_rad};
-    }
-  };
-  std::optional<Offered> offered(const Se2& pose) const {
-    std::optional<Offered> best;
+    std::optional<GoalPlace> best;
     for (std::size_t i = 0; i < goals_.size(); ++i) {
       const std::vector<double>& goal = goals_[i];
       const double off = distance(pose.position(), Vec2{goal[0], goal[1]});
@@ -81,18 +59,30 @@ class GoalPlaces {
       const double turn = goal.size() == 3 ? std::abs(turn_between(pose.theta, goal[2])) : 0.0;
       if (turn > std::max(most_off_rad_, coarse_rad_)) continue;
       const double heading = turn <= most_off_rad_ ? pose.theta : goal[2];
-      Offered here{off, turn, {{pose.x, pose.y, heading}, i, off}};
+      GoalPlace here{{pose.x, pose.y, heading}, i, off, off, turn};
       if (!best || here < *best) best = std::move(here);
     }
     return best;
   }
+  /// Of equal ranks the one whose heading is less off counts, and then the first. No rank: its distance.
+  void offer(const Se2& pose, std::optional<double> rank = {}) {
+    constexpr std::size_t most = 16;
+    std::optional<GoalPlace> found = place(pose);
+    if (!found) return;
+    found->rank = rank.value_or(found->rank);
+    kept_.insert(std::upper_bound(kept_.begin(), kept_.end(), *found), std::move(*found));
+    if (kept_.size() > most) kept_.pop_back();
+  }
+  /// The least rank first.
+  const std::vector<GoalPlace>& taken() const { return kept_; }
 
+ private:
   static constexpr double rounding_rad = 1e-9;
   std::vector<std::vector<double>> goals_;
   double reach_;         // world units
   double most_off_rad_;  // of headings
   double coarse_rad_;
-  std::vector<Offered> kept_;  // sorted
+  std::vector<GoalPlace> kept_;  // sorted
 };
 
 /// All goals of a question, the first first.
@@ -128,8 +118,8 @@ inline constexpr std::pair<std::string_view, std::string_view> visited_place{"@v
 /// SolveKind::solve, whatever the question leaves open of its goal, and whatever stops it has. Throws as that.
 Answer solve_to_goal(const SolveKind& kind, const SolveRequest& request);
 
-// A route is kept (keep_route.cpp; docs/algorithms.md): the rest of an older path, where that is still
-// free and a new one is not much cheaper.
+// A route is kept (docs/algorithms.md): the rest of an older path, where that is still free and a new one is not much
+// cheaper.
 
 /// What is left of a route for a robot that stands at `start`: from there to the route's place nearest to it, then on.
 /// Of places that are as near but for `slack` the first counts, so that nobody jumps to where the route comes by again.

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <utility>
 
 #include "core/base/error.hpp"
@@ -16,15 +17,11 @@
 #include "core/plane/se2.hpp"
 #include "planners/visibility/visibility_graph.hpp"
 #include "solve/kinds/geometric_roadmaps.hpp"
-#include "solve/kinds/kind_of_problem.hpp"
 #include "solve/kinds/plane_steps.hpp"
-#include "solve/kinds/pose_body.hpp"
 #include "solve/kinds/priced_motions.hpp"
 #include "solve/kinds/question_of_pose.hpp"
-#include "solve/kinds/sampled_roadmap.hpp"
 #include "solve/kinds/sampled_solve.hpp"
-#include "solve/kinds/solve_steps.hpp"
-#include "worlds/plane/obstacles_at_fixed_angle.hpp"
+#include "worlds/plane/polygon_world.hpp"
 #include "worlds/poses/se2_world.hpp"
 
 namespace warren {
@@ -42,38 +39,20 @@ Path<Se2> without_half_turns(const Path<Se2>& path) {
   return cut;
 }
 
-/// The judge of a polygon that may turn, as solves ask it. Refers to all of it.
-struct PolygonJudge {
-  const Scene& scene;
-  const PoseProblem& problem;
-  const Execution& execution;
-  const ObstacleIndex* index = nullptr;  ///< of the scene, where there is one
-
-  Verification judged(std::span<const Se2> poses, const PoseVerifyOptions& options) const {
-    return verify_se2(scene, problem.robot.outline, poses, options, execution, index);
-  }
-  /// As an end.
-  bool stands_free(const Se2& pose) const {
-    const double margin = end_margin(scene, problem, execution);
-    return judged(std::span(&pose, 1), {.clearance = problem.clearance + margin}).verified;
-  }
-  void settle_ends(Answer& answer) const {
-    settle_blocked_poses(answer, scene, problem, execution, [this](const Se2& pose) { return stands_free(pose); });
-  }
-  /// Verifies a path, whichever planner found it, and fills it into the answer with what is said of it. A leg of about
-  /// half a turn, which could be read either way, gets a pose in its middle. Throws as take_verdict().
-  void judge(const Path<Se2>& path, Answer& answer) const {
-    const Path<Se2> poses = without_half_turns(path);
-    const StageTimer timer(execution, "verify", answer.seconds.verify, poses.size());
-    take_poses(answer, judged(poses, verify_options(problem)), poses);
-  }
-};
+/// Verifies the path of a polygon that may turn, whichever planner found it, and fills it into the answer with what is
+/// said of it. A leg of about half a turn, which could be read either way, gets a pose in its middle. Throws as
+/// take_verdict().
+void judge_polygon(const PoseJudge& judge, const Path<Se2>& path, Answer& answer) {
+  const Path<Se2> poses = without_half_turns(path);
+  const StageTimer timer(judge.execution, "verify", answer.seconds.verify, poses.size());
+  take_poses(answer, judge.judged(poses, verify_options(judge.problem)), poses);
+}
 
 Verdict recheck_turning(const Scene& scene, const Question& question, const RecordedAnswer& answer,
                         const Execution& execution) {
   const PoseProblem problem = pose_problem(scene, question, turning_body);
   check_state_width(answer, 3, turning_body);
-  const PolygonJudge judge{scene, problem, execution};
+  const PoseJudge judge{scene, problem, execution};
   return {judge.judged(poses_of(answer.states), verify_options(problem)), problem.general()};
 }
 
@@ -86,23 +65,30 @@ class TurningPolygon : public PoseBody {
       : PoseBody(request, pose_problem(request.scene, request.question, turning_body)),
         prices_(std::make_unique<PosePrices>(scene_, prices_of(scene_, request.question), problem_.clearance)) {}
 
-  MotionLength<Se2> price_motions(const World& world) const { return motion_cost(world, *prices_); }
-  void index(std::optional<World>& world, SamplerKind) const {
-    world.emplace(scene_, problem_.robot.outline, Se2Options{.clearance = problem_.clearance}, execution_);
+  /// The same both ways to the last bit.
+  MotionLength<Se2> price_motions(const World& world) const {
+    if (!prices_->is_priced()) return {};
+    return [&world, &prices = *prices_](const Se2& a, const Se2& b) {
+      auto query = world.make_query();
+      const bool is_forward = std::tie(a.x, a.y, a.theta) <= std::tie(b.x, b.y, b.theta);
+      const Se2& from = is_forward ? a : b;
+      const Se2& to = is_forward ? b : a;
+      return world.distance(from, to) + prices.over(world, distance(a.position(), b.position()), query,
+                                                    [&](double t) { return world.interpolate(from, to, t); });
+    };
   }
-  bool start_stands_free() const { return goal_stands_free(problem_.start); }
-  bool goal_stands_free(const Se2& pose) const { return polygon_judge().stands_free(pose); }
+  void index(std::optional<World>& world, SamplerKind) const {
+    world.emplace(scene_, problem_.robot.outline, problem_.clearance, execution_);
+  }
   static double length(const World&, const Se2& a, const Se2& b) { return distance(a.position(), b.position()); }
   Path<Se2> shortened(const World& world, Path<Se2> path, Answer& answer) const {
     if (const auto cost = price_motions(world)) return shortcut(world, std::move(path), cost, answer);
     const auto plane_length = [&](const Se2& a, const Se2& b) { return length(world, a, b); };
     return shortcut(world, std::move(path), plane_length, answer);
   }
-  void judge(const World&, const Path<Se2>& path, Answer& answer) const { polygon_judge().judge(path, answer); }
+  void judge(const World&, const Path<Se2>& path, Answer& answer) const { judge_polygon(pose_judge(), path, answer); }
 
  private:
-  PolygonJudge polygon_judge() const { return {scene_, problem_, execution_, judged_}; }
-
   std::unique_ptr<PosePrices> prices_;  // motions refer to it
 };
 
@@ -123,7 +109,7 @@ class UnturnedSolve {
   explicit UnturnedSolve(const SolveRequest& request)
       : request_(request), problem_(pose_problem(request.scene, request.question, turning_body)) {}
 
-  PolygonJudge judge() const { return {request_.scene, problem_, request_.execution, request_.asked.judged()}; }
+  PoseJudge judge() const { return {request_.scene, problem_, request_.execution, request_.asked.judged()}; }
   /// At the start's heading.
   Path<Se2> poses_along(const Path<Vec2>& path) const {
     Path<Se2> poses;
@@ -180,7 +166,7 @@ class AxisSolve : UnturnedSolve {
     if (answer_.outcome != Outcome::solved) return;
     Path<Se2> poses = poses_along(answer_.path);
     turn_at_the_goal(poses);
-    judge().judge(poses, answer_);
+    judge_polygon(judge(), poses, answer_);
   }
 
   /// A disc that starts on water may stay there, a polygon may not.
@@ -209,7 +195,7 @@ class AxisSolve : UnturnedSolve {
   void settle_blocked_ends() {
     const bool at_start = answer_.outcome == Outcome::start_blocked;
     const bool is_settled = !is_blocked(answer_.outcome);
-    judge().settle_ends(answer_);
+    answer_.outcome = judge().settled(answer_.outcome);
     if (is_settled || is_blocked(answer_.outcome)) return;
     if (problem_.is_at_goal()) {
       answer_.outcome = Outcome::solved;
@@ -244,15 +230,15 @@ class FixedAngleSolve : UnturnedSolve {
     if (request.planner != PlannerKind::cells) return;
     cells_ = cell_options(request.options, search);
     cells_->overlaps = Overlaps::united;
-    answer_.options.push_back(doors_option(*cells_));
+    answer_.options.push_back({"doors", std::string(name_of(cells_->doors))});
   }
 
   void run() {
     const Solution<Vec2> solution = plan();
     if (cells_) answer_.cells = CellCount{solution.roadmap.milestones, solution.roadmap.edges};
     take_account(answer_, solution);
-    judge().settle_ends(answer_);
-    if (answer_.outcome == Outcome::solved) judge().judge(poses_along(solution.path), answer_);
+    answer_.outcome = judge().settled(answer_.outcome);
+    if (answer_.outcome == Outcome::solved) judge_polygon(judge(), poses_along(solution.path), answer_);
   }
   Answer& answer() { return answer_; }
 

@@ -59,7 +59,10 @@ class Rows {
     if (options_.every_s) {
       places = timed_->duration_s() / *options_.every_s;
     } else {
-      for (std::size_t i = 0; i < legs_.leg_count(); ++i) places += parts(i);
+      for (std::size_t i = 0; i < legs_.leg_count(); ++i) {
+        execution_.poll(i);
+        places += parts(i);
+      }
     }
     if (places > most) throw UsageError(fmt::format("@every: gives {:.2g} places, more than 1e9", places));
   }
@@ -79,7 +82,10 @@ class Rows {
     for (double k = 0.0;; k += 1.0) {
       const double t = std::min(k * *options_.every_s, timed_->duration_s());
       const PathMoment moment = timed_->at(t);
-      for (; leg < moment.leg; ++leg) along += legs_.length(leg);
+      for (; leg < moment.leg; ++leg) {
+        execution_.poll(leg);
+        along += legs_.length(leg);
+      }
       tell_at(moment, t, along + moment.share * legs_.length(leg));
       if (t >= timed_->duration_s()) return;
     }

@@ -133,17 +133,16 @@ PathMoment TimedPath::at_share(std::size_t leg, double share, double& time_s) co
   const double way = share * length;
   const double up = 0.5 * r.up_s * (r.from + r.top);
   const double level = r.level_s * r.top;
+  double speed = r.top;
   if (way <= up) {
-    const double speed = std::sqrt(r.from * r.from + 2.0 * r.rate * way);
+    speed = std::sqrt(r.from * r.from + 2.0 * r.rate * way);
     time_s += (speed - r.from) / r.rate;
-    return {leg, share, gear * speed};
-  }
-  if (way <= up + level) {
+  } else if (way <= up + level) {
     time_s += r.up_s + (way - up) / r.top;
-    return {leg, share, gear * r.top};
+  } else {
+    speed = std::sqrt(std::max(0.0, r.to * r.to + 2.0 * r.rate * (length - way)));
+    time_s += r.up_s + r.level_s + (r.top - speed) / r.rate;
   }
-  const double speed = std::sqrt(std::max(0.0, r.to * r.to + 2.0 * r.rate * (length - way)));
-  time_s += r.up_s + r.level_s + (r.top - speed) / r.rate;
   return {leg, share, gear * speed};
 }
 
@@ -158,8 +157,7 @@ PathLegs::PathLegs(const Answer& answer)
 
 double PathLegs::number(std::size_t state, std::size_t k) const {
   state = std::min(state, state_count_ - 1);
-  if (!answer_->states.empty()) return answer_->states[state][k];
-  return k == 0 ? answer_->path[state].x : answer_->path[state].y;
+  return answer_->numbers(state)[k];
 }
 
 double PathLegs::joint_turn(std::size_t i, std::size_t k) const {

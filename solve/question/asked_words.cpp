@@ -19,15 +19,13 @@ namespace {
 }
 
 /// Where it is said; range: from low to high, in words.
-template <class T>
-void check_number(std::string_view option, std::string_view what, const std::optional<T>& number, double low,
+void check_number(std::string_view option, std::string_view what, const std::optional<double>& number, double low,
                   double high, std::string_view range) {
   if (number && !(*number >= low && *number <= high)) refuse_number(option, what, range, *number);
 }
 
-void check_factor(std::string_view option, double factor) {
-  if (factor >= 1.0 && factor <= largest_price) return;
-  refuse_number(option, "a factor", fmt::format("from 1 to {}", largest_price), factor);
+void check_factor(std::string_view option, const std::optional<double>& factor) {
+  check_number(option, "a factor", factor, 1.0, largest_price, fmt::format("from 1 to {}", largest_price));
 }
 
 void check_area(std::string_view option, const std::vector<Vec2>& corners) {
@@ -45,7 +43,7 @@ void check_mask(const PriceMask& mask) {
   if (mask.kind == MaskKind::areas && !mask.factor) {
     throw UsageError("@areas: a mask needs the factor of its value 100: FILE,F");
   }
-  if (mask.factor) check_factor(option, *mask.factor);
+  check_factor(option, mask.factor);
   constexpr double most = 1e6;
   if (is_speed && !(std::abs(mask.base) <= most && std::abs(mask.multiplier) <= most)) {
     throw UsageError("@speed_zones: base and multiplier are numbers from -1e6 to 1e6, in per cent");
@@ -76,8 +74,8 @@ AskedWords words_in(const Prices& prices) {
     add(mask.kind == MaskKind::keep_out, mask.factor ? AskedWord::keep_out_factor : AskedWord::keep_out);
   }
   add(!prices.keep_out.empty(), AskedWord::keep_out);
-  add(prices.unknown.has_value(), AskedWord::unknown);
-  add(prices.unknown.value_or(1.0) > 1.0, AskedWord::unknown_factor);
+  add(prices.opens_unknown(), AskedWord::unknown);
+  add(prices.opens_unknown() && *prices.unknown > 1.0, AskedWord::unknown_factor);
   return words;
 }
 
@@ -107,12 +105,10 @@ PricedArea area_value(const std::string& where, std::string_view text) {
 
 void check_prices(const Prices& prices) {
   if (const auto& clearance = prices.clearance) {
-    if (!(clearance->price >= 0.0 && clearance->price <= largest_price)) {
-      refuse_number("clearance_price", "a price", fmt::format("from 0 to {}", largest_price), clearance->price);
-    }
-    if (clearance->reach && !(*clearance->reach >= smallest_coordinate && *clearance->reach <= largest_coordinate)) {
-      refuse_number("clearance_price", "the distance from which nothing is paid", "above 0", *clearance->reach);
-    }
+    check_number("clearance_price", "a price", clearance->price, 0.0, largest_price,
+                 fmt::format("from 0 to {}", largest_price));
+    check_number("clearance_price", "the distance from which nothing is paid", clearance->reach, smallest_coordinate,
+                 largest_coordinate, "above 0");
   }
   for (const PricedArea& area : prices.areas) {
     check_factor("area", area.factor);
@@ -120,7 +116,7 @@ void check_prices(const Prices& prices) {
   }
   for (const PriceMask& mask : prices.masks) check_mask(mask);
   for (const KeepOut& area : prices.keep_out) check_area("keep_out", area.corners);
-  if (prices.unknown) check_factor("unknown", *prices.unknown);
+  if (prices.opens_unknown()) check_factor("unknown", prices.unknown);
 }
 
 void check_goal_rule(const GoalRule& rule, std::size_t least_numbers) {
@@ -168,8 +164,8 @@ void check_asked(const Scene& scene, const Question& question) {
     }
   }
   check_goal_rule(question.rule);
-  if ((question.prices.unknown || scene.prices.unknown) && !scene.map) {
-    const std::string said = question.prices.unknown ? "@unknown" : scene.source + ": its line 'unknown'";
+  if ((question.prices.opens_unknown() || scene.prices.unknown) && !scene.map) {
+    const std::string said = question.prices.opens_unknown() ? "@unknown" : scene.source + ": its line 'unknown'";
     throw UsageError(fmt::format("{}: only maps have unknown cells, and {} is none", said, scene.source));
   }
   if (clearance && question.contact == Contact::allowed) {

@@ -18,18 +18,14 @@ double seconds_of(const Limits& limits) {
   return seconds;
 }
 
-unsigned threads_of(const Limits& limits) {
-  if (limits.threads > most_threads) {
-    throw UsageError(fmt::format("@threads: must be at most {} (found: {})", most_threads, limits.threads));
-  }
-  return limits.threads;
-}
-
 }  // namespace
 
 LimitedExecution::LimitedExecution(const Limits& limits)
     : deadline_(seconds_of(limits), limits.memory.value_or(available_bytes()), limits.cancel) {
-  execution_.threads = threads_of(limits);
+  if (limits.threads > most_threads) {
+    throw UsageError(fmt::format("@threads: must be at most {} (found: {})", most_threads, limits.threads));
+  }
+  execution_.threads = limits.threads;
   execution_.deadline = &deadline_;
   on_improvement_ = limits.on_improvement;
   if (on_improvement_) execution_.on_improvement = &on_improvement_;

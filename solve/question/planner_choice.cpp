@@ -13,35 +13,17 @@
 namespace warren {
 namespace {
 
-SearchChoice searched_how(const SolveOptions& asked) {
-  SearchChoice choices;
-  if (asked.search == SearchMethod::jump_points) {
-    throw UsageError("@search: jump points need a grid; the planner grid takes them");
-  }
-  if (asked.search) choices.search = static_cast<SearchKind>(*asked.search);
-  choices.queue = asked.queue.value_or(QueueKind::heap);
-  choices.seed = asked.seed;
-  return choices;
-}
-
 RoadmapOptions roadmap_options(const SolveOptions& asked) {
-  const SearchChoice searched = searched_how(asked);
-  RoadmapOptions options;
-  options.samples = asked.roadmap.samples;
-  options.neighbours = asked.roadmap.neighbours;
-  options.radius = asked.roadmap.radius;
-  options.star = asked.roadmap.star;
-  options.search = searched.search;
-  options.queue = searched.queue;
-  options.seed = asked.seed;
-  options.neighbour_index = asked.roadmap.neighbour_index.value_or(NeighbourIndex::by_counts);
-  options.heuristic = asked.heuristic.value_or(HeuristicKind::euclidean);
-  return options;
-}
-
-void check_queue(const SolveOptions& asked, SearchKind search) {
-  if (!asked.queue || has_queue(search)) return;
-  throw UsageError(fmt::format("@queue: {} has no priority queue; astar and dijkstra take one", name_of(search)));
+  const SearchChoice searched = search_choice(asked);
+  return {.samples = asked.roadmap.samples,
+          .neighbours = asked.roadmap.neighbours,
+          .radius = asked.roadmap.radius,
+          .star = asked.roadmap.star,
+          .seed = asked.seed,
+          .search = searched.search,
+          .queue = searched.queue,
+          .heuristic = asked.heuristic.value_or(HeuristicKind::euclidean),
+          .neighbour_index = asked.roadmap.neighbour_index.value_or(NeighbourIndex::by_counts)};
 }
 
 void check_planner(const SolveOptions& asked, PlannerKind planner, SearchKind search) {
@@ -88,22 +70,17 @@ SamplerKind sampler_for(const SolveOptions& asked, const Scene& scene) {
   return asked.sampler.value_or(usual);
 }
 
-/// The world must have room for a cell each way; a world without extent has none for any.
-void refuse_wide_cell(double cell, const Scene& scene) {
-  const Box box = scene.bounds ? *scene.bounds : obstacle_box(scene);
-  constexpr double rounding = 1e-9;
-  const double side = std::min(box.width(), box.height());
-  if (box.empty() || side == 0.0 || side / cell + rounding >= 1.0) return;
-  throw UsageError(
-      fmt::format("@cell: {} is too large: the world has {:.6g} x {:.6g}", cell, box.width(), box.height()));
-}
-
 }  // namespace
 
 SearchChoice search_choice(const SolveOptions& asked) {
-  const SearchChoice choices = searched_how(asked);
-  check_queue(asked, choices.search);
-  return choices;
+  if (asked.search == SearchMethod::jump_points) {
+    throw UsageError("@search: jump points need a grid; the planner grid takes them");
+  }
+  const auto search = static_cast<SearchKind>(asked.search.value_or(SearchMethod::astar));
+  if (asked.queue && !has_queue(search)) {
+    throw UsageError(fmt::format("@queue: {} has no priority queue; astar and dijkstra take one", name_of(search)));
+  }
+  return {search, asked.queue.value_or(QueueKind::heap)};
 }
 
 void check_planner_options(const SolveOptions& asked) {
@@ -112,7 +89,6 @@ void check_planner_options(const SolveOptions& asked) {
   if (planner && !is_roadmap_planner(*planner)) {
     throw UsageError(fmt::format("@planner: {} builds no roadmap of samples; prm and lazy-prm do", name_of(*planner)));
   }
-  check_queue(asked, options.search);
   if (asked.heuristic && options.search != SearchKind::astar) {
     throw UsageError(fmt::format("@heuristic: {} estimates nothing; astar takes one", name_of(options.search)));
   }
@@ -166,14 +142,21 @@ GridSpec grid_spec(const GridFields& options, const Scene& scene) {
   constexpr std::uint32_t usual_angles = 72;
   constexpr double cells_a_side = 400.0;
   GridSpec grid = scene.grid.value_or(GridSpec{.cell = scene.map ? scene.map->cell : 0.0, .angles = usual_angles});
+  const bool asks_box = options.cell || grid.cell == 0.0;
+  const Box box = scene.bounds || !asks_box ? scene.bounds.value_or(Box{}) : obstacle_box(scene);
   if (options.cell) {
     check_cell(*options.cell, scene);
-    refuse_wide_cell(*options.cell, scene);
+    // It must have room each way; a world without extent has none for any.
+    constexpr double rounding = 1e-9;
+    const double side = box.empty() ? 0.0 : std::min(box.width(), box.height());
+    if (side > 0.0 && side / *options.cell + rounding < 1.0) {
+      throw UsageError(fmt::format("@cell: {} is too large: the world has {:.6g} x {:.6g}", *options.cell, box.width(),
+                                   box.height()));
+    }
   }
   grid.cell = options.cell.value_or(grid.cell);
   grid.angles = options.angles.value_or(grid.angles);
   if (grid.cell == 0.0) {
-    const Box box = scene.bounds ? *scene.bounds : obstacle_box(scene);
     grid.cell = box.empty() ? 0.0 : std::max(box.width(), box.height()) / cells_a_side;
     if (!(grid.cell > 0.0)) throw UsageError("@cell: is missing, and the world has no extent to divide");
   }

@@ -23,7 +23,6 @@ inline constexpr OptionSet plane_takes = lazy_prm_takes | point_takes | OptionSe
 struct SearchChoice {
   SearchKind search = SearchKind::astar;
   QueueKind queue = QueueKind::heap;
-  std::uint64_t seed = 1;
 };
 /// Throws UsageError for jump points, which need a grid, and for a queue that the search has no use for.
 SearchChoice search_choice(const SolveOptions& options);

@@ -13,7 +13,7 @@
 #include "scenes/text/scene_text.hpp"
 #include "solve/question/asked_words.hpp"
 #include "solve/question/question_of_arm.hpp"
-#include "worlds/rasters/convex_pieces.hpp"
+#include "worlds/rasters/lattice_polygons.hpp"
 
 namespace warren {
 namespace {
@@ -107,6 +107,7 @@ void add_prices(Prices& prices, const Prices& asked) {
 Prices prices_of(const Scene& scene, const Question& question) {
   Prices prices = scene.prices;
   add_prices(prices, question.prices);
+  if (!prices.opens_unknown()) prices.unknown.reset();
   if (prices.clearance && !prices.clearance->reach) {
     const RobotSpec robot = robot_of(scene, question);
     prices.clearance->reach = least_width(robot);

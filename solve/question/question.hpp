@@ -55,8 +55,8 @@ struct RouteRule {
 inline constexpr std::uint32_t most_alternatives = 64;
 
 /// What is asked of a world: what is not said here is as the world's file says, and else as documented. A state is X, Y
-/// of a point or disc; X, Y, THETA (radians) of a body that turns, whose goal may lack THETA: any heading; six joint
-/// angles of an arm (radians), whose goal may be the three coordinates of a place of its tool.
+/// of a point or disc; X, Y, THETA (radians) of a body that turns, whose goal may lack THETA: any heading; a number a
+/// joint of an arm (radians, of joints that slide a length), whose goal may be three coordinates: a place of its tool.
 struct Question {
   std::optional<RobotSpec> robot = {};  ///< none: the file's, else a point
   std::vector<double> start = {};       ///< empty: the file's
@@ -116,7 +116,7 @@ RobotSpec robot_of(const Scene& scene, const Question& options);
 /// Room around the body: the options', else the file's, else 0.1 in mazes, else 0.
 double clearance_of(const Scene& scene, const Question& options);
 
-/// Of a disc, or of a polygon between two parallel lines; of arms 0.
+/// Of a disc its diameter, of an outline the least distance of two parallel lines that hold it, of a point 0.
 double least_width(const RobotSpec& robot);
 
 /// The file's prices and the question's: areas, masks and forbidden areas of both, else the question's word; the reach

@@ -12,8 +12,6 @@
 #include "core/base/whole.hpp"
 #include "scenes/arms/arm_files_io.hpp"
 #include "worlds/arms/arm_world.hpp"
-#include "worlds/arms/convex_motion.hpp"
-#include "worlds/arms/puma560.hpp"
 #include "worlds/arms/serial_chain.hpp"
 
 namespace warren {
@@ -257,16 +255,6 @@ std::vector<JointState> goal_states(const ArmProblem& problem, const Execution& 
     }
   }
   return states;
-}
-
-bool tip_is_blocked(const Scene& scene, const ArmProblem& problem) {
-  if (!problem.table || problem.goal_pose) return false;
-  const ConvexBody tip({SolidKind::sphere, Eigen::Isometry3d(Eigen::Translation3d(problem.goal_place())),
-                        Vec3(problem.robot.radius, 0.0, 0.0)});
-  const MovingFrame still;
-  return std::ranges::any_of(solids_of(scene, {}), [&](const Solid& solid) {
-    return keep_apart(tip, still, ConvexBody(solid), still, 0.0, problem.clearance) != Apart::proved;
-  });
 }
 
 }  // namespace warren

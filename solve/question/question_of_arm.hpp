@@ -61,8 +61,4 @@ ArmProblem arm_problem(const Scene& scene, const Question& options, const Execut
 /// finds. The goal's one state where it has one.
 std::vector<JointState> goal_states(const ArmProblem& problem, const Execution& execution);
 
-/// Is the goal's place so near an obstacle that no link could end there, whatever the posture? Of arms whose links are
-/// capsules as far as the tool.
-bool tip_is_blocked(const Scene& scene, const ArmProblem& problem);
-
 }  // namespace warren

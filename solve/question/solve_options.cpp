@@ -2,7 +2,6 @@
 #include "solve/question/solve_options.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -46,33 +45,6 @@ struct OptionCheck {
   }
 };
 
-Figure option_figure(bool value) { return value; }
-template <class T>
-Figure option_figure(const std::optional<T>& value) {
-  if constexpr (NamedEnum<T>) return std::string(name_of(*value));
-  if constexpr (std::is_same_v<T, double>) return *value;
-  if constexpr (std::is_integral_v<T>) return std::uint64_t{*value};
-}
-/// "0.5" or "0.5,0.1".
-Figure option_figure(const std::optional<GrowingAttach>& attach) {
-  const std::string radius = attach->radius ? fmt::format("{}", *attach->radius) : "";
-  return attach->step ? fmt::format("{},{}", radius, *attach->step) : radius;
-}
-/// "1,2;3,4,0.5"
-Figure option_figure(const std::vector<std::vector<double>>& via) {
-  std::string text;
-  for (const std::vector<double>& state : via)
-    text += fmt::format("{}{}", text.empty() ? "" : ";", fmt::join(state, ","));
-  return text;
-}
-
-/// "tree,restarts"
-Figure option_figure(const std::vector<AnytimePart>& parts) {
-  std::string text;
-  for (const AnytimePart part : parts) text.append(text.empty() ? "" : ",").append(name_of(part));
-  return text;
-}
-
 }  // namespace
 
 void SolveOptions::validate() const { visit_options(OptionCheck{}, *this); }
@@ -93,17 +65,6 @@ void copy_option(Option option, SolveOptions& to, const SolveOptions& from) {
   };
   visit_options(copy, to, from);
   if (star_option(from) == option) to.roadmap.star = from.roadmap.star;
-}
-
-std::vector<NamedFigure> given_figures(const SolveOptions& options) {
-  std::vector<NamedFigure> figures;
-  const auto add = [&]<class T>(Option option, OptionRange, const T& field) {
-    const bool is_star = star_option(options) == option;
-    if (option == Option::sampler || option == Option::search || (field == T{} && !is_star)) return;
-    figures.push_back({std::string(name_of(option)), is_star ? Figure(std::string("star")) : option_figure(field)});
-  };
-  visit_options(add, options);
-  return figures;
 }
 
 }  // namespace warren

@@ -18,7 +18,6 @@
 #include "planners/grid/grid_search.hpp"
 #include "planners/vertical_cells/cell_planner.hpp"
 #include "scenes/scene/scene.hpp"
-#include "solve/question/figure.hpp"
 #include "worlds/rasters/heading_layers.hpp"
 
 namespace warren {
@@ -304,7 +303,5 @@ constexpr std::optional<Option> star_option(const SolveOptions& options) {
 OptionSet given(const SolveOptions& options);
 /// Gives one option the value that it has in `from`.
 void copy_option(Option option, SolveOptions& to, const SolveOptions& from);
-/// Those that are given as answers repeat them: all but sampler and search, which answers name anyway.
-std::vector<NamedFigure> given_figures(const SolveOptions& options);
 
 }  // namespace warren

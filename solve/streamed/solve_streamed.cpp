@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "planners/mazes/overlay_search.hpp"
+#include "planners/mazes/overlay.hpp"
 #include "planners/mazes/tile_source.hpp"
 #include "scenes/files/maze_file_io.hpp"
 #include "scenes/mazes/spanning_maze.hpp"
@@ -20,19 +20,13 @@
 #include "solve/answer/write_answer_io.hpp"
 #include "solve/explain/blocked_end.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
-#include "solve/kinds/lower_bound.hpp"
 #include "solve/kinds/solve_steps.hpp"
 #include "solve/question/planner_choice.hpp"
-#include "verify/streamed/looked_up_walls.hpp"
 
 namespace warren {
 namespace {
 
 constexpr unsigned tile_side_log2 = CellBits::usual_side_log2;
-
-Range cell_rows(MazeHint size, Range own) {
-  return {own.first << tile_side_log2, std::min<std::size_t>(size.rows, own.last << tile_side_log2)};
-}
 
 /// The formula is what the maze is, for the judge, too.
 class FormulaWalls : public StreamedWalls {
@@ -72,7 +66,8 @@ class ArrayWalls : public StreamedWalls {
       : file_(packed.file, execution),
         planned_(file_, size, execution, own),
         judged_(
-            file_.name(), file_.bytes(), size.rows, size.cols, cell_rows(size, own),
+            file_.name(), file_.bytes(), size.rows, size.cols,
+            {own.first << tile_side_log2, std::min<std::size_t>(size.rows, own.last << tile_side_log2)},
             [this](std::size_t first, std::size_t last) { file_.forget(first, last); }, execution) {}
   const CellWallSource& planned() const override { return planned_.cells(); }
   const CellWallSource& judged() const override { return judged_; }
@@ -170,18 +165,11 @@ class StreamedSolve {
     JudgesElsewhere* const judges = help_.team != nullptr ? &help_.team->judges() : nullptr;
     JudgedPath judged({walls_->judged(), verify_options(problem_), execution_, judges},
                       help_.taker != nullptr ? *help_.taker : keeper, answer_.seconds, execution_);
-    take_solution(answer_, tiled_prm({none,
-                                      {},
-                                      {},
-                                      problem_.reach(),
-                                      problem_.start,
-                                      problem_.goal,
-                                      &walls_->planned(),
-                                      true,
-                                      &judged,
-                                      help_.kept,
-                                      help_.team != nullptr ? &help_.team->tiles() : nullptr},
-                                     options_.roadmap, execution_));
+    TiledProblem tiled{none, {}, {}, problem_.reach(), problem_.start, problem_.goal, &walls_->planned(), true};
+    tiled.taker = &judged;
+    tiled.kept = help_.kept;
+    if (help_.team != nullptr) tiled.others = &help_.team->tiles();
+    take_solution(answer_, tiled_prm(tiled, options_.roadmap, execution_));
     if (answer_.outcome != Outcome::solved) return;
     take_verdict(answer_, judged.verdict());
     answer_.path = std::move(kept);
@@ -216,17 +204,6 @@ class StreamedSolve {
 };
 
 constexpr PlannerChoice streamed_planners[] = {{PlannerKind::prm, prm_takes | OptionSet{Option::pipeline}}};
-
-/// Makes the walls, plans, verifies; all of it is in solve_s. Throws UsageError for what can't be asked; a stop is an
-/// answer.
-Answer solve_streamed(const Scene& scene, const Question& question, const SolveOptions& options,
-                      const Execution& execution, const StreamedHelp& help) {
-  return answered(StreamedSolve(scene, question, options, execution, help));
-}
-
-Answer solve_request(const SolveRequest& request) {
-  return solve_streamed(request.scene, request.question, request.options, request.execution, {.taker = request.taker});
-}
 
 Verdict recheck_streamed(const Scene& scene, const Question& question, const RecordedAnswer& answer,
                          const Execution& execution) {
@@ -263,19 +240,23 @@ Answer solve_streamed_within(const Scene& scene, const Question& question, const
   check_solver_options(options);
   if (!choose_solver(options, scene, question).kind->unmade) throw UsageError("@pipeline: these walls are held");
   if (!question.route.keep_to.empty()) throw UsageError("@keep_to: nobody holds these walls, to judge an older path");
-  Answer answer = solve_streamed(scene, question, options, execution, help);
+  Answer answer = answered(StreamedSolve(scene, question, options, execution, help));
   tell_bound(answer, scene, options, execution);
   tell_process(answer, execution);
   return answer;
 }
 
 SolveKind streamed_kind() {
-  SolveKind kind{"a point or disc in a maze made tile by tile",
-                 [](const Scene& scene, const RobotSpec& robot) { return is_unmade(scene) && is_round(robot); },
-                 streamed_planners,
-                 usually<PlannerKind::prm>,
-                 solve_request,
-                 recheck_streamed};
+  SolveKind kind{
+      "a point or disc in a maze made tile by tile",
+      [](const Scene& scene, const RobotSpec& robot) { return is_unmade(scene) && is_round(robot); },
+      streamed_planners,
+      usually<PlannerKind::prm>,
+      [](const SolveRequest& request) {
+        const StreamedHelp help{.taker = request.taker};
+        return answered(StreamedSolve(request.scene, request.question, request.options, request.execution, help));
+      },
+      recheck_streamed};
   kind.unmade = true;
   return kind;
 }

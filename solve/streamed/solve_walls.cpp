@@ -34,14 +34,12 @@ std::pair<std::uint32_t, std::uint32_t> cell_of(Vec2 p, MazeHint maze) {
   return {at(p.x, maze.cols), at(p.y, maze.rows)};
 }
 
-bool holds(const Box& outer, const Box& inner) { return outer.contains(inner.min) && outer.contains(inner.max); }
-
 /// Is it proved that no path joins start and goal? Both are free points of the scene, which has the maze hint.
 bool proves_infeasible(const Scene& scene, Vec2 start, Vec2 goal, const Execution& execution) {
   const MazeHint maze = *scene.maze;
   const Box box{{0.5, 0.5}, {maze.cols + 0.5, maze.rows + 0.5}};
   if (!box.contains(start) || !box.contains(goal)) return false;
-  if (scene.bounds && !holds(box, *scene.bounds)) return false;
+  if (scene.bounds && !(box.contains(scene.bounds->min) && box.contains(scene.bounds->max))) return false;
   const MazeCells cells = cells_of_walls(scene.walls, maze, execution);
   return !flood_connects(cells, cell_of(start, maze), cell_of(goal, maze), execution);
 }
@@ -87,15 +85,15 @@ class WallSolve {
   }
   void plan(PlannedRoadmap<Vec2>* keep) {
     if (is_kept()) {
-      return take_solution(answer_, ask_roadmap(*session().roadmap, problem_.start, problem_.goal, options_.roadmap,
-                                                execution_, *request_.asked.scratch, keep));
+      return take_solution(answer_, planned<Vec2>().ask(*session().roadmap, problem_.start, problem_.goal,
+                                                        options_.roadmap, execution_, *request_.asked.scratch, keep));
     }
     if (options_.pipeline != PipelineKind::plain) return take_solution(answer_, plan_tiles());
     const MazeWorld& world = indexed_world();
     if (grows() && ends_are_free(world) && proved_infeasible()) return;
-    const auto planner = options_.planner == PlannerKind::prm ? prm<Vec2> : lazy_prm<Vec2>;
-    take_solution(answer_,
-                  planner(WorldView(world), problem_.start, problem_.goal, options_.roadmap, execution_, keep));
+    const bool lazy = options_.planner == PlannerKind::lazy_prm;
+    take_solution(answer_, planned<Vec2>().on_roadmap(WorldView(world), problem_.start, problem_.goal, options_.roadmap,
+                                                      lazy, execution_, keep));
   }
   Solution<Vec2> plan_tiles() {
     const std::vector<Segment> bounds = bounds_walls(scene_);
@@ -119,12 +117,11 @@ class WallSolve {
   }
   /// As SampledSolve says it of other bodies.
   void tell_cause() {
-    const auto tell = [&](std::string_view cause) {
-      if (!cause.empty()) answer_.figures.push_back({"cause", std::string(cause)});
-    };
-    if (answer_.outcome == Outcome::start_blocked) tell("start_in_collision");
-    if (answer_.outcome == Outcome::goal_blocked) tell("goal_in_collision");
-    if (answer_.outcome == Outcome::not_connected) tell(cause_of_separation(answer_, true));
+    std::string_view cause;
+    if (answer_.outcome == Outcome::start_blocked) cause = "start_in_collision";
+    if (answer_.outcome == Outcome::goal_blocked) cause = "goal_in_collision";
+    if (answer_.outcome == Outcome::not_connected) cause = cause_of_separation(answer_, true);
+    if (!cause.empty()) answer_.figures.push_back({"cause", std::string(cause)});
   }
   void optimise() {
     const MazeWorld& world = indexed_world();
@@ -146,7 +143,6 @@ class WallSolve {
 class PointAmongWalls : public UsualBody<WallProblem> {
  public:
   using World = MazeWorld;
-  static constexpr bool judged_by_index = true;
 
   explicit PointAmongWalls(const SolveRequest& request) : UsualBody(request, problem_of(request)) {}
   void index(std::optional<World>& world, SamplerKind) const { world.emplace(scene_, problem_.reach(), execution_); }
@@ -166,7 +162,8 @@ void make_roadmap(const SolveRequest& request) {
   const LatticeSize size = options.roadmap.lattice;
   if (std::uint64_t{size.rows} * size.cols > most_drawn) return;
   const MazeWorld world(request.scene, problem.reach(), request.execution);
-  prm(WorldView(world), problem.start, problem.goal, options.roadmap, request.execution, &request.keep->roadmap);
+  planned<Vec2>().on_roadmap(WorldView(world), problem.start, problem.goal, options.roadmap, false, request.execution,
+                             &request.keep->roadmap);
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "spatial/obstacles/segment_grid.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace warren {
@@ -13,20 +12,19 @@ constexpr std::size_t most_listings_each = 8;  // a segment on average, else the
 
 }  // namespace
 
-void SegmentGrid::lay_out(const Box& box, std::size_t segments, double scale) {
-  const double w = box.empty() ? 0.0 : box.width();
-  const double h = box.empty() ? 0.0 : box.height();
+void SegmentGrid::lay_out(const Box& around, std::size_t segments, double scale) {
+  const Box box = around.empty() ? Box{{}, {}} : around;
+  const double w = box.width();
+  const double h = box.height();
   const double longer = std::max(w, h);
-  const Vec2 corner = box.empty() ? Vec2{} : box.min;
   const double magnitude =
-      box.empty() ? 0.0
-                  : std::max({std::abs(box.min.x), std::abs(box.min.y), std::abs(box.max.x), std::abs(box.max.y)});
+      std::max({std::abs(box.min.x), std::abs(box.min.y), std::abs(box.max.x), std::abs(box.max.y)});
   const double n = static_cast<double>(std::max<std::size_t>(segments, 1));
   cell_ =
       scale * std::max({std::sqrt(w / n) * std::sqrt(h), longer / std::min(n, double{most_lines}), magnitude * 1e-14});
   if (!(cell_ > 0.0)) cell_ = 1.0;
   slack_ = 1e-6 * cell_ + 1e-15 * magnitude;
-  origin_ = {corner.x - 0.5 * cell_, corner.y - 0.5 * cell_};
+  origin_ = {box.min.x - 0.5 * cell_, box.min.y - 0.5 * cell_};
   cols_ = bounded_whole<std::uint32_t>(w / cell_) + 2;
   rows_ = bounded_whole<std::uint32_t>(h / cell_) + 2;
 }

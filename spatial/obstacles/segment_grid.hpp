@@ -91,7 +91,7 @@ class SegmentGrid {
 
  private:
   /// Sets origin, cell size and counts for so many segments in the box.
-  void lay_out(const Box& box, std::size_t segments, double scale);
+  void lay_out(const Box& around, std::size_t segments, double scale);
   std::uint32_t clamped(double at, std::uint32_t count) const {
     return bounded_whole<std::uint32_t>(at, 0.0, count - 1.0);
   }

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "spatial/obstacles/wall_index.hpp"
 
-#if defined(__x86_64__) && !defined(WARREN_PLAIN)
-#include <immintrin.h>
-#endif
-
 #include <utility>
 
 #include "core/base/error.hpp"
@@ -39,7 +35,7 @@ Ends<T> ends_of(const WallOf<T>& wall) {
 
 template <class T>
 template <std::size_t bytes>
-[[gnu::always_inline]] inline void MotionBunch<T>::sift_with(std::span<const WallOf<T>> walls) noexcept {
+[[gnu::always_inline]] inline void MotionBunch<T>::sift_with(MotionBunch& bunch, std::span<const WallOf<T>> walls) {
   using Lanes = typename LanesOf<T, bytes>::Numbers;
   using IndexLanes = typename LanesOf<T, bytes>::Indices;
   constexpr std::size_t width = sizeof(Lanes) / sizeof(T);
@@ -48,10 +44,10 @@ template <std::size_t bytes>
     Lanes bottom;
     Lanes right;
     Lanes top;
-    std::memcpy(&left, &left_[lane], sizeof left);
-    std::memcpy(&bottom, &bottom_[lane], sizeof bottom);
-    std::memcpy(&right, &right_[lane], sizeof right);
-    std::memcpy(&top, &top_[lane], sizeof top);
+    std::memcpy(&left, &bunch.left_[lane], sizeof left);
+    std::memcpy(&bottom, &bunch.bottom_[lane], sizeof bottom);
+    std::memcpy(&right, &bunch.right_[lane], sizeof right);
+    std::memcpy(&top, &bunch.top_[lane], sizeof top);
     IndexLanes count{};
     IndexLanes first{};
     IndexLanes last{};
@@ -64,81 +60,17 @@ template <std::size_t bytes>
       first |= index & meets & (count == 0);
       count -= meets;
     }
-    std::memcpy(&count_[lane], &count, sizeof count);
-    std::memcpy(&first_[lane], &first, sizeof first);
-    std::memcpy(&last_[lane], &last, sizeof last);
+    std::memcpy(&bunch.count_[lane], &count, sizeof count);
+    std::memcpy(&bunch.first_[lane], &first, sizeof first);
+    std::memcpy(&bunch.last_[lane], &last, sizeof last);
   }
 }
-
-#if defined(__x86_64__) && !defined(WARREN_PLAIN)
 
 template <class T>
-[[gnu::target("avx2")]] void MotionBunch<T>::sift_avx2(std::span<const WallOf<T>> walls) noexcept {
-  sift_with<32>(walls);
-}
-
-// By the machine's own functions: its comparisons give bits, not lanes, which the compilers' vectors can't say well.
-template <>
-[[gnu::target("avx512f")]] void MotionBunch<float>::sift_avx512(std::span<const WallOf<float>> walls) noexcept {
-  const __m512 left = _mm512_load_ps(left_.data());
-  const __m512 bottom = _mm512_load_ps(bottom_.data());
-  const __m512 right = _mm512_load_ps(right_.data());
-  const __m512 top = _mm512_load_ps(top_.data());
-  __m512i count = _mm512_setzero_si512();
-  __m512i first = _mm512_setzero_si512();
-  __m512i last = _mm512_setzero_si512();
-  for (std::size_t i = 0; i < walls.size(); ++i) {
-    const auto [low_x, low_y, high_x, high_y] = ends_of(walls[i]);
-    __mmask16 meets = _mm512_cmp_ps_mask(_mm512_set1_ps(high_x), left, _CMP_GE_OQ);
-    meets = _mm512_mask_cmp_ps_mask(meets, _mm512_set1_ps(low_x), right, _CMP_LE_OQ);
-    meets = _mm512_mask_cmp_ps_mask(meets, _mm512_set1_ps(high_y), bottom, _CMP_GE_OQ);
-    meets = _mm512_mask_cmp_ps_mask(meets, _mm512_set1_ps(low_y), top, _CMP_LE_OQ);
-    const __m512i index = _mm512_set1_epi32(as_whole<int>(i));
-    last = _mm512_mask_mov_epi32(last, meets, index);
-    first = _mm512_mask_mov_epi32(first, _mm512_mask_testn_epi32_mask(meets, count, count), index);
-    count = _mm512_mask_add_epi32(count, meets, count, _mm512_set1_epi32(1));
-  }
-  _mm512_store_si512(count_.data(), count);
-  _mm512_store_si512(first_.data(), first);
-  _mm512_store_si512(last_.data(), last);
-}
-
-template <>
-[[gnu::target("avx512f")]] void MotionBunch<double>::sift_avx512(std::span<const WallOf<double>> walls) noexcept {
-  for (std::size_t lane = 0; lane < most; lane += 8) {
-    const __m512d left = _mm512_load_pd(&left_[lane]);
-    const __m512d bottom = _mm512_load_pd(&bottom_[lane]);
-    const __m512d right = _mm512_load_pd(&right_[lane]);
-    const __m512d top = _mm512_load_pd(&top_[lane]);
-    __m512i count = _mm512_setzero_si512();
-    __m512i first = _mm512_setzero_si512();
-    __m512i last = _mm512_setzero_si512();
-    for (std::size_t i = 0; i < walls.size(); ++i) {
-      const auto [low_x, low_y, high_x, high_y] = ends_of(walls[i]);
-      __mmask8 meets = _mm512_cmp_pd_mask(_mm512_set1_pd(high_x), left, _CMP_GE_OQ);
-      meets = _mm512_mask_cmp_pd_mask(meets, _mm512_set1_pd(low_x), right, _CMP_LE_OQ);
-      meets = _mm512_mask_cmp_pd_mask(meets, _mm512_set1_pd(high_y), bottom, _CMP_GE_OQ);
-      meets = _mm512_mask_cmp_pd_mask(meets, _mm512_set1_pd(low_y), top, _CMP_LE_OQ);
-      const __m512i index = _mm512_set1_epi64(as_whole<std::int64_t>(i));
-      last = _mm512_mask_mov_epi64(last, meets, index);
-      first = _mm512_mask_mov_epi64(first, _mm512_mask_testn_epi64_mask(meets, count, count), index);
-      count = _mm512_mask_add_epi64(count, meets, count, _mm512_set1_epi64(1));
-    }
-    _mm512_store_si512(&count_[lane], count);
-    _mm512_store_si512(&first_[lane], first);
-    _mm512_store_si512(&last_[lane], last);
-  }
-}
-
-#endif
-
-template <class T>
-void MotionBunch<T>::sift(std::span<const WallOf<T>> walls, [[maybe_unused]] InstructionSet set) noexcept {
-#if defined(__x86_64__) && !defined(WARREN_PLAIN)
-  if (set == InstructionSet::avx512) return sift_avx512(walls);
-  if (set == InstructionSet::avx2) return sift_avx2(walls);
-#endif
-  sift_with<16>(walls);
+void MotionBunch<T>::sift(std::span<const WallOf<T>> walls, InstructionSet set) noexcept {
+  const auto work = set == InstructionSet::baseline ? &VersionsOf<&MotionBunch::template sift_with<16>>::baseline
+                                                    : &VersionsOf<&MotionBunch::template sift_with<32>>::avx2;
+  work(*this, walls);
 }
 
 template class MotionBunch<float>;
@@ -285,8 +217,9 @@ class WallGridBuilder {
   static constexpr std::uint32_t crowded = 64;
 
   void choose_cell(const WallStatistics& s) {
-    const double width = s.box.empty() ? 0.0 : s.box.width();
-    const double height = s.box.empty() ? 0.0 : s.box.height();
+    const Box box = s.box.empty() ? Box{{}, {}} : s.box;
+    const double width = box.width();
+    const double height = box.height();
     const double longest = std::max({width, height, 1e-90});
     const double area = std::max(width, 1e-6 * longest) * std::max(height, 1e-6 * longest);
     const auto n = static_cast<double>(std::max<std::size_t>(s.walls, 1));
@@ -295,14 +228,11 @@ class WallGridBuilder {
     if (s.total_length > 0.0) h = std::min(h, area / s.total_length);
     h = std::max({h, std::sqrt(area / (2 * n + slack)), s.total_length / (4 * n + slack), longest * 1e-9});
     if (s.median_length >= h && s.median_length <= 2 * h) h = s.median_length * (1 + 1e-9);
-    if (!s.box.empty()) {
-      rounding_ = 1e-15 * std::max({std::abs(s.box.min.x), std::abs(s.box.min.y), std::abs(s.box.max.x),
-                                    std::abs(s.box.max.y)});
-    }
+    rounding_ = 1e-15 * std::max({std::abs(box.min.x), std::abs(box.min.y), std::abs(box.max.x), std::abs(box.max.y)});
     grid_.cell_ = h;
     grid_.inverse_cell_ = 1.0 / h;
     // Off the lines that walls lie on, so that equal walls fall into equal cells.
-    grid_.origin_ = s.box.empty() ? Vec2{} : Vec2{s.box.min.x - 0.43 * h, s.box.min.y - 0.43 * h};
+    grid_.origin_ = {box.min.x - 0.43 * h, box.min.y - 0.43 * h};
     grid_.cols_ = bounded_whole<std::uint32_t>(width / h + 0.43) + 1;
     grid_.rows_ = bounded_whole<std::uint32_t>(height / h + 0.43) + 1;
     const std::size_t cells = std::size_t{grid_.cols_} * grid_.rows_;

@@ -351,9 +351,7 @@ class MotionBunch {
   }
 
   template <std::size_t bytes>
-  void sift_with(std::span<const WallOf<T>> walls) noexcept;
-  void sift_avx2(std::span<const WallOf<T>> walls) noexcept;
-  void sift_avx512(std::span<const WallOf<T>> walls) noexcept;
+  static void sift_with(MotionBunch& bunch, std::span<const WallOf<T>> walls);
 
   Box around_;
   alignas(64) Ends left_, bottom_, right_, top_;

@@ -140,7 +140,6 @@ struct TopTree {
 /// The k best so far: sorted if k is small, else a heap with the worst on top.
 class NearestSet {
  public:
-  using DistanceType = double;
   NearestSet(std::size_t k, VertexId except, std::vector<Neighbour>& out) : k_(k), except_(except), out_(out) {}
 
   double worstDist() const { return worst_; }  // NOLINT(readability-identifier-naming): nanoflann's names
@@ -352,31 +351,19 @@ struct KdTree<D>::Forest {
 };
 
 template <int D>
-KdTree<D>::KdTree() = default;
-template <int D>
-KdTree<D>::~KdTree() = default;
-template <int D>
-KdTree<D>::KdTree(KdTree&&) noexcept = default;
-template <int D>
-KdTree<D>& KdTree<D>::operator=(KdTree&&) noexcept = default;
+void KdTree<D>::Fell::operator()(const Forest* forest) const noexcept {
+  delete forest;
+}
 
 template <int D>
 KdTree<D>::KdTree(std::span<const Point> points, const Execution& execution) {
   execution.check();
-  if (!points.empty()) forest_ = std::make_unique<Forest>(points, execution);
+  if (!points.empty()) forest_.reset(new Forest(points, execution));
 }
 
 template <int D>
 std::size_t KdTree<D>::size() const {
   return forest_ == nullptr ? 0 : forest_->points.size();
-}
-
-template <int D>
-std::size_t KdTree<D>::bytes() const {
-  if (forest_ == nullptr) return 0;
-  std::size_t sum = size() * (sizeof(Point) + sizeof(VertexId) + sizeof(std::uint32_t));
-  for (const auto& tree : forest_->trees) sum += tree == nullptr ? 0 : tree->index.usedMemory(tree->index);
-  return sum;
 }
 
 template <int D>

@@ -23,15 +23,11 @@ class KdTree : public NeighboursByVisits<KdTree<D>, D> {
  public:
   using Point = PointOf<D>;
 
-  KdTree();  ///< no points
+  KdTree() = default;  ///< no points
   /// Copies the points. Coordinates finite; below 2^32 points. Throws Stopped.
   KdTree(std::span<const Point> points, const Execution& execution);
-  ~KdTree();
-  KdTree(KdTree&&) noexcept;
-  KdTree& operator=(KdTree&&) noexcept;
 
   std::size_t size() const;
-  std::size_t bytes() const;
   /// Point `id`, as it came.
   const Point& point(VertexId id) const;
 
@@ -46,10 +42,13 @@ class KdTree : public NeighboursByVisits<KdTree<D>, D> {
 
  private:
   struct Forest;
+  struct Fell {
+    void operator()(const Forest* forest) const noexcept;
+  };
   using Call = void (*)(const void*, VertexId, double);
   void visit_within(const Point& p, const SearchRadius& radius, const void* visit, Call call) const;
 
-  std::unique_ptr<Forest> forest_;
+  std::unique_ptr<const Forest, Fell> forest_;
 };
 
 extern template class KdTree<2>;

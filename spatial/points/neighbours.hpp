@@ -36,7 +36,6 @@ class BruteNeighbours : public NeighboursByVisits<BruteNeighbours<D>, D> {
   }
 
   std::size_t size() const { return points_.size(); }
-  std::size_t bytes() const { return points_.size() * sizeof(Point); }
   const Point& point(VertexId id) const { return points_[id]; }
 
   /// The k points nearest to p (fewer if there are not so many) but `except`, ascending by (distance, id).
@@ -115,9 +114,6 @@ class Neighbours {
   bool uses_tree() const { return kind_ == NeighbourIndex::kd_tree; }
   std::size_t size() const {
     return with([](const auto& index) { return index.size(); });
-  }
-  std::size_t bytes() const {
-    return with([](const auto& index) { return index.bytes(); });
   }
   /// Point `id`, as it came.
   Point point(VertexId id) const {

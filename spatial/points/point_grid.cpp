@@ -118,10 +118,6 @@ void PointGrid::count_crowding(const Execution& execution) {
   crowding_ = static_cast<double>(sum) / static_cast<double>(size());
 }
 
-std::size_t PointGrid::bytes() const {
-  return sorted_.size() * sizeof(Vec2) + (begin_.size() + id_.size() + place_of_.size()) * sizeof(VertexId);
-}
-
 /// Are the points in tile order? A pass of its own: filed out of order, two chunks would write the same cell.
 bool PointGrid::in_order(std::span<const Vec2> points, const Execution& execution) const {
   const std::size_t first_too_late = first_in_chunks(points.size(), grid_grain, execution.quiet(), [&](Range range) {

@@ -171,7 +171,6 @@ class PointGrid : public NeighboursByVisits<PointGrid, 2> {
   PointGrid& operator=(PointGrid&&) = default;
 
   std::size_t size() const { return points_.size(); }
-  std::size_t bytes() const;
   /// Did the points come in tile order?
   bool in_tile_order() const { return id_.empty(); }
 

@@ -7,7 +7,6 @@
 #include "scenes/files/npy_io.hpp"
 #include "scenes/files/plane_formats_io.hpp"
 #include "scenes/files/read_world_io.hpp"
-#include "scenes/files/scene_io.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "tests/fuzz/fuzz_reader.hpp"
 #include "tests/fuzz/properties.hpp"

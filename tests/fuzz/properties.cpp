@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "scenes/arms/solid_text.hpp"
+#include "scenes/arms/arm_files_io.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 
 namespace warren::fuzz {

@@ -7,7 +7,7 @@
 
 #include "solve/solve.hpp"
 #include "tests/tools/process.hpp"
-#include "tools/screen/exit_code.hpp"
+#include "tools/screen/run_of_verb.hpp"
 #include "tools/verbs/answer_command.hpp"
 
 namespace warren::test {

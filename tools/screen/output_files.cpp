@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <filesystem>
 #include <limits>
@@ -15,14 +14,13 @@
 #include <system_error>
 
 #include "apps/studies/contest_pictures.hpp"
-#include "core/base/error.hpp"
 #include "core/base/printable.hpp"
 #include "pictures/formats/write_picture.hpp"
+#include "scenes/files/plane_formats_io.hpp"
 #include "scenes/files/read_world_io.hpp"
-#include "scenes/files/ros_map_io.hpp"
 #include "scenes/text/output_file_io.hpp"
 #include "solve/kept/export_roadmap.hpp"
-#include "tools/screen/exit_code.hpp"
+#include "tools/screen/run_of_verb.hpp"
 #include "tools/words/option_values.hpp"
 
 namespace warren::tools {
@@ -157,13 +155,10 @@ bool is_picture_name(const Arguments& arguments, std::string_view name) {
 /// No picture that `option` writes into `folder` may take the place of any of these files.
 void check_many(std::string_view option, const std::string& folder, const std::vector<NamedFile>& files,
                 const std::function<bool(std::string_view)>& may_be_written) {
-  struct stat pictures {};
-  if (::stat(folder.c_str(), &pictures) != 0) return;
   for (const NamedFile& file : files) {
     const std::string real = behind_links(file.path);
-    struct stat its {};
-    if (::stat(folder_of(real).c_str(), &its) != 0) continue;
-    const bool beside = its.st_dev == pictures.st_dev && its.st_ino == pictures.st_ino;
+    std::error_code missing;
+    const bool beside = std::filesystem::equivalent(folder_of(real), folder, missing);
     if (beside && may_be_written(name_in_folder(real))) {
       throw UsageError(fmt::format("{}: {} may be the name of one of the pictures", option, file.path));
     }
@@ -204,10 +199,8 @@ std::optional<std::string> output_file(const Arguments& arguments, std::string_v
   return file;
 }
 
-bool check_reports(const Arguments& arguments, std::initializer_list<std::string_view> options) {
-  bool taken = false;
-  for (const std::string_view option : options) taken = output_file(arguments, option) == "-" || taken;
-  return taken;
+void check_reports(const Arguments& arguments, std::initializer_list<std::string_view> options) {
+  for (const std::string_view option : options) output_file(arguments, option);
 }
 
 void write_report(const Arguments& arguments, std::string_view option, const std::function<std::string()>& text) {
@@ -274,6 +267,10 @@ void check_outputs(const Arguments& arguments) {
     check_many("--figures", folder_of(*file), files,
                [&](std::string_view name) { return name.ends_with(ending) && name.starts_with(begin); });
   }
+}
+
+bool takes_standard_output(const Arguments& arguments) {
+  return std::ranges::count(outputs_of(arguments), std::string_view("-"), &NamedFile::path) > 0;
 }
 
 void check_not_written(const Arguments& arguments, const std::string& input) {

@@ -28,8 +28,8 @@ void check_picture(std::string_view option, const std::string& file);
 /// The file that an option names, if it is given; check_writable has been asked.
 std::optional<std::string> output_file(const Arguments& arguments, std::string_view option);
 
-/// Throws WriteError unless each file that these options name can be written; does one of them take standard output?
-bool check_reports(const Arguments& arguments, std::initializer_list<std::string_view> options);
+/// Throws WriteError unless each file that these options name can be written.
+void check_reports(const Arguments& arguments, std::initializer_list<std::string_view> options);
 
 /// Writes what `text` makes to the file that an option names, if it is given; whatever has stopped meanwhile.
 void write_report(const Arguments& arguments, std::string_view option, const std::function<std::string()>& text);
@@ -56,5 +56,8 @@ void check_outputs(const Arguments& arguments);
 void check_not_written(const Arguments& arguments, const std::string& input);
 /// The same for an arm's table, or its URDF and SRDF, and for masks and the images of those that have been read.
 void check_not_written(const Arguments& arguments, const std::optional<RobotSpec>& robot, const Prices& prices = {});
+
+/// Is one of the outputs that the command line names standard output, by whatever name?
+bool takes_standard_output(const Arguments& arguments);
 
 }  // namespace warren::tools

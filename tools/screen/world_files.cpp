@@ -3,31 +3,24 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <filesystem>
 #include <fstream>
-#include <string_view>
 #include <tuple>
-#include <utility>
 
-#include "core/base/error.hpp"
 #include "core/base/printable.hpp"
 #include "pictures/draw_answer.hpp"
-#include "pictures/draw_roadmap.hpp"
 #include "pictures/formats/write_picture.hpp"
 #include "pictures/layers/draw_cells.hpp"
 #include "scenes/arms/arm_files_io.hpp"
 #include "scenes/files/maze_file_io.hpp"
 #include "scenes/files/npy_io.hpp"
+#include "scenes/files/plane_formats_io.hpp"
 #include "scenes/files/read_world_io.hpp"
-#include "scenes/files/ros_map_io.hpp"
-#include "scenes/text/human_units.hpp"
 #include "solve/answer/read_answer_io.hpp"
 #include "solve/answer/world_account.hpp"
 #include "solve/kept/roadmap_file.hpp"
 #include "solve/kept/roadmap_file_io.hpp"
 #include "solve/question/question_of_arm.hpp"
-#include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/words/option_values.hpp"
@@ -51,7 +44,7 @@ InputFile file_of_world(const std::string& source, const Execution& execution) {
   const bool is_size = source == "maze" || source.find_first_not_of("0123456789x") == std::string::npos;
   std::error_code ignored;
   if (is_size && !std::filesystem::exists(source, ignored)) {
-    throw ReadError(source, "there is no such file; a maze is called maze:41x41");
+    throw ReadError(source.empty() ? "''" : source, "there is no such file; a maze is called maze:41x41");
   }
   return InputFile(source, execution);
 }
@@ -239,13 +232,13 @@ int draw_roadmap(const Arguments& arguments, const std::string& file, const Pict
   Run run(arguments);
   const Roadmap roadmap = load_roadmap(arguments, run.execution());
   std::vector<std::string> notes;
-  run.in_stage("draw", [&] {
+  run.in_stage("draw", nullptr, [&] {
     draw_roadmap(roadmap, arguments.command_line(), options.heading, run.execution(),
                  [&](const Picture& picture) { notes = write_picture(file, picture, options, run.execution()); });
   });
   run.end();
   say_of_picture(arguments, file, notes);
-  run.conclude(file == "-", {}, [&] {
+  run.conclude([&] {
     const EdgeCounts edges = count_edges(roadmap, run.execution());
     return fmt::format("{}: {}, {}, edges: {} free, {} blocked, {} unchecked\n", run.palette().strong(file),
                        description_of(roadmap.world.whole(run.execution())),

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <utility>
-
 #include "pictures/answer_summary.hpp"
 #include "pictures/draw_answer.hpp"
 #include "pictures/formats/write_picture.hpp"
@@ -15,7 +13,6 @@
 #include "solve/explain_answer.hpp"
 #include "solve/kept/roadmap_file_io.hpp"
 #include "solve/kinds/solve_steps.hpp"
-#include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
 #include "tools/words/question_words.hpp"
 #include "worlds/rasters/lattice_polygons.hpp"
@@ -55,12 +52,11 @@ int AnswerCommand::run() {
   // One that gets better until it is interrupted answers, and says that it was.
   const bool is_told = answer_.outcome == Outcome::stopped || (answer_.stop_reason && is_signal(*answer_.stop_reason));
   const auto stopped = is_told ? std::optional(answer_.stop_reason.value_or(StopReason::time)) : std::nullopt;
-  const bool standard_output_taken =
-      json_ == "-" || svg_ == "-" || arguments_.value("--trace") == "-" || roadmap_ == "-" || path_ == "-";
-  run.conclude(standard_output_taken, stopped, [&] {
+  const auto summary = [&] {
     return summary_of(answer_, run.palette(), written_) + notes_text(answer_, run.palette()) +
            explanation_text(answer_, run.palette());
-  });
+  };
+  run.conclude(summary, stopped);
   if (stopped) return exit_code_of(*stopped);
   return answer_.verified ? exit_code::success : exit_code::no_path;
 }

@@ -16,7 +16,6 @@
 #include "solve/kept/roadmap.hpp"
 #include "solve/paths/path_file_io.hpp"
 #include "tools/screen/run_of_verb.hpp"
-#include "tools/words/command.hpp"
 
 namespace warren::tools {
 

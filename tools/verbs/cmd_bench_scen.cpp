@@ -8,27 +8,19 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdint>
 #include <cstdlib>
 #include <limits>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "core/base/error.hpp"
 #include "core/base/printable.hpp"
-#include "core/run/execution.hpp"
 #include "parallel/chunks.hpp"
 #include "planners/grid/grid_search.hpp"
 #include "scenes/files/plane_formats_io.hpp"
 #include "scenes/scene/occupancy_map.hpp"
-#include "scenes/text/human_units.hpp"
 #include "scenes/text/json_text.hpp"
 #include "scenes/text/output_file_io.hpp"
-#include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"
-#include "tools/words/command.hpp"
 
 namespace warren::tools {
 namespace {
@@ -223,7 +215,7 @@ int bench_scen(const Arguments& arguments) {
   run.end();
   const ScenarioTotals totals = totals_of(checked);
   if (json) write_file(*json, scenario_json(file, map.source, totals), run.execution());
-  if (!run.quiet() && json != "-") print_text(scenario_summary(file, totals, run.palette()));
+  run.conclude([&] { return scenario_summary(file, totals, run.palette()); });
   return totals.differing.empty() ? exit_code::success : exit_code::no_path;
 }
 

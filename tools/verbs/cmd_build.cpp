@@ -5,20 +5,14 @@
 
 #include <algorithm>
 #include <iterator>
-#include <optional>
-#include <string>
 
-#include "core/base/error.hpp"
-#include "scenes/text/human_units.hpp"
 #include "scenes/text/output_file_io.hpp"
 #include "solve/answer/world_account.hpp"
 #include "solve/kept/roadmap_file_io.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
-#include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/screen/world_files.hpp"
-#include "tools/words/command.hpp"
 #include "tools/words/option_values.hpp"
 #include "tools/words/question_words.hpp"
 
@@ -78,7 +72,7 @@ int build_roadmap_file(const Arguments& arguments) {
   const EdgeCounts edges = count_edges(roadmap, run.execution());
   write_roadmap(roadmap, *file, run.execution(), !arguments.has("--no-world"));
   run.end();
-  run.conclude(file == "-", {}, [&] {
+  run.conclude([&] {
     return fmt::format("{}: {}, {} states, {} edges free, {} blocked, {} unchecked\n", run.palette().strong(*file),
                        description_of(roadmap.world.outline()), grouped(count_states(roadmap)), grouped(edges.free),
                        grouped(edges.blocked), grouped(edges.unchecked));
@@ -117,7 +111,7 @@ int update_roadmap(const Arguments& arguments) {
   if (told) told->commit();
   first.keep();
   run.end();
-  run.conclude(file == "-" || report == "-", {}, [&] {
+  run.conclude([&] {
     return fmt::format("{}: {}, {} edges, {} checked; {} states new, {} gone\n", run.palette().strong(*file),
                        account.built_anew ? "built anew" : "changed", grouped(account.edges),
                        grouped(account.edges_checked), grouped(account.states_added), grouped(account.states_dropped));

@@ -9,20 +9,16 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
-#include <cstdint>
 #include <iterator>
-#include <utility>
+#include <limits>
 
 #include "apps/studies/comparison_report.hpp"
 #include "apps/studies/contest_pictures.hpp"
-#include "core/base/error.hpp"
 #include "pictures/formats/write_picture.hpp"
 #include "pictures/layers/draw_bodies.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
-#include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/screen/world_files.hpp"
@@ -50,10 +46,10 @@ constexpr OptionSpec compare_output_specs[] = {
     {"--log", "FILE", "write every run as OMPL's benchmarks do; - is standard output"},
 };
 
-/// Throws unless every output can be written; says whether one of them takes standard output.
-bool check_outputs_of_compare(const Arguments& arguments) {
-  const bool taken = check_reports(
-      arguments, {"--json", "--csv", "--runs", "--picture", "--html", "--log", "--table", "--figures", "--curves"});
+/// Throws unless every output can be written.
+void check_outputs_of_compare(const Arguments& arguments) {
+  check_reports(arguments,
+                {"--json", "--csv", "--runs", "--picture", "--html", "--log", "--table", "--figures", "--curves"});
   check_plots(arguments);
   if (arguments.has("--curves") && !arguments.has("--planners")) {
     throw UsageError("--curves: shows how planners get better with time; say --planners, too");
@@ -62,7 +58,6 @@ bool check_outputs_of_compare(const Arguments& arguments) {
   if (arguments.has("--log") && arguments.has("--sizes")) {
     throw UsageError("--log: holds the runs on one world; --sizes has many graphs");
   }
-  return taken;
 }
 
 std::optional<Outcome> compare_within(const Arguments& arguments, CompareOptions& options, const Run& run,
@@ -94,7 +89,7 @@ studies::OmplExperiment experiment_of(const Arguments& arguments, const CompareO
           .date = fmt::format("{:%Y-%b-%d %H:%M:%S}", fmt::localtime(std::chrono::system_clock::to_time_t(begin))),
           .setup = arguments.command_line(),
           .seed = options.planners ? options.planners->first_seed : 1,
-          .budget_s = std::isfinite(options.budget_s) ? options.budget_s : 0.0,
+          .budget_s = std::isfinite(options.searches.budget_s) ? options.searches.budget_s : 0.0,
           .memory_mb = execution.deadline->memory_bytes() >> 20,
           .total_s = std::chrono::duration<double>(std::chrono::system_clock::now() - begin).count()};
 }
@@ -114,7 +109,7 @@ int exit_code(const studies::Comparison& comparison, bool has_graph) {
 
 int compare(const Arguments& arguments) {
   CompareOptions options = compare_options(arguments);
-  const bool standard_output_taken = check_outputs_of_compare(arguments);
+  check_outputs_of_compare(arguments);
   const auto begin = std::chrono::system_clock::now();
   // The runs are counted, and those of all take turns; of graphs of several sizes, and of pictures, nobody knows.
   static constexpr ExpectedStage runs[] = {{"compare", 1.0}};
@@ -145,8 +140,7 @@ int compare(const Arguments& arguments) {
   write_report(arguments, "--log", [&] {
     return studies::ompl_log(comparison, experiment_of(arguments, options, run.execution(), begin));
   });
-  run.conclude(standard_output_taken, comparison.stopped,
-               [&] { return studies::comparison_summary(comparison, run.palette()); });
+  run.conclude([&] { return studies::comparison_summary(comparison, run.palette()); }, comparison.stopped);
   return exit_code(comparison, !no_graph);
 }
 
@@ -389,13 +383,15 @@ void compare_planners(const Scene& scene, const CompareOptions& options, const E
                studies::draw_contest(world, contest, comparison, options.pictures, options.look, execution));
 }
 
-/// The planner that was asked for, else the one that `solve` would take, with those of the options that it takes.
+/// The planner that was asked for, else the one that `solve` would take (prm for lazy-prm), with those of the options
+/// that it takes.
 SolveOptions graph_options(const CompareOptions& options, const Scene& scene) {
   studies::PlannerDeal deal = options.graph_deal;
   if (!options.graph) {
     SolveOptions all = deal.common;
     for (const studies::DealtOption& list : deal.lists) copy_option(list.option, all, list.values.front().value);
-    deal.planners = {studies::usual_graph_planner(scene, deal.question, all)};
+    const PlannerKind usual = choose_solver(all, scene, deal.question).planner;
+    deal.planners = {usual == PlannerKind::lazy_prm ? PlannerKind::prm : usual};
   }
   SolveOptions graph = studies::deal_planners(deal).front().options;
   if (graph.planner == PlannerKind::prm) graph.roadmap.pipeline = PipelineKind::plain;  // tiles leave no roadmap
@@ -405,7 +401,7 @@ SolveOptions graph_options(const CompareOptions& options, const Scene& scene) {
 std::optional<Outcome> compare_searches(const CompareOptions& options, const Scene& scene, const Execution& execution,
                                         studies::Comparison& comparison,
                                         const std::function<void(std::string_view)>& note) {
-  const Deadline deadline(execution.deadline, options.budget_s);
+  const Deadline deadline(execution.deadline, options.searches.budget_s);
   Execution within = execution;
   within.deadline = &deadline;
   const studies::WorldGraph made =
@@ -421,12 +417,6 @@ std::optional<Outcome> compare_searches(const CompareOptions& options, const Sce
   add_pictures(comparison, options.pictures,
                studies::draw_searches(scene, made.graph, options.searches, options.pictures, options.look, execution));
   return std::nullopt;
-}
-
-void check_heading(const CompareOptions& options, const Scene& scene) {
-  if (!options.look.heading) return;
-  check_has_headings(
-      robot_of(scene, options.planners ? options.planners->contenders.front().question : options.graph_deal.question));
 }
 
 }  // namespace
@@ -458,11 +448,11 @@ CompareOptions compare_options(const Arguments& arguments) {
   if (!options.world && (arguments.has("--planners") || !arguments.has("--sizes"))) {
     throw UsageError("WORLD is missing; only --sizes, on random graphs, needs none");
   }
-  options.budget_s = given_value(arguments, "--budget", duration_value).value_or(options.budget_s);
+  options.searches.budget_s = given_value(arguments, "--budget", duration_value).value_or(options.searches.budget_s);
   first_seed(arguments);
   if (arguments.has("--planners")) {
     options.planners = contest_options(arguments);
-    options.planners->budget_s = options.budget_s;
+    options.planners->budget_s = options.searches.budget_s;
   }
   options.pictures = arguments.value("--pictures").value_or("");
   options.look = picture_words(arguments, arguments.has("--pictures"), "--pictures FOLDER");
@@ -470,7 +460,6 @@ CompareOptions compare_options(const Arguments& arguments) {
   arguments.refuse({"--parallel"}, "runs --planners beside each other; searches are timed one by one");
   options.searches.variants = variants_of(arguments);
   options.searches.trials = given_value(arguments, "--trials", auto_or_count_value, std::uint64_t{1}, most_runs);
-  options.searches.budget_s = options.budget_s;
   options.sweep = sweep_options(arguments);
   if (options.sweep) options.sweep->contest = options.searches;
   if (options.world) {
@@ -487,7 +476,10 @@ std::optional<Outcome> run_comparison(const CompareOptions& options, const Scene
                                       studies::Comparison& comparison,
                                       const std::function<void(std::string_view)>& note) {
   std::optional<Outcome> no_graph;
-  if (scene != nullptr) check_heading(options, *scene);
+  if (scene != nullptr && options.look.heading) {
+    check_has_headings(robot_of(
+        *scene, options.planners ? options.planners->contenders.front().question : options.graph_deal.question));
+  }
   try {
     if (scene != nullptr && options.planners) compare_planners(*scene, options, execution, comparison);
     if (scene != nullptr && !options.planners) {

@@ -4,19 +4,14 @@
 #pragma once
 
 #include <functional>
-#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "apps/studies/comparison.hpp"
 #include "apps/studies/planner_contest.hpp"
 #include "apps/studies/search_contest.hpp"
-#include "core/base/solution.hpp"
-#include "core/run/execution.hpp"
 #include "pictures/model/picture_options.hpp"
-#include "scenes/scene/scene.hpp"
 #include "tools/words/command.hpp"
 
 namespace warren::tools {
@@ -24,13 +19,12 @@ namespace warren::tools {
 struct CompareOptions {
   std::optional<std::string> world;
   std::optional<studies::PlannerContestOptions> planners;  ///< planners are compared; else searches
-  studies::SearchContestOptions searches;
+  studies::SearchContestOptions searches;                  ///< its budget is that of each run, of planners, too
   std::optional<studies::SizeSweepOptions> sweep;
   std::optional<PlannerKind> graph;  ///< the planner whose graph is searched; none: the world's usual one
   studies::PlannerDeal graph_deal;   ///< options of that planner; its planners are all that may make the graph
   std::string pictures = {};         ///< the folder that takes them; empty: none are drawn
   PictureOptions look = {};
-  double budget_s = std::numeric_limits<double>::infinity();  ///< of each run
 };
 
 /// All options of the verb but those of run_option_specs() and of the outputs.

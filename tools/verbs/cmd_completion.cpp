@@ -7,13 +7,10 @@
 #include <algorithm>
 #include <cctype>
 #include <set>
-#include <string_view>
-#include <vector>
 
 #include "core/base/printable.hpp"
-#include "tools/screen/exit_code.hpp"
+#include "tools/screen/run_of_verb.hpp"
 #include "tools/verbs/example_files.hpp"
-#include "tools/words/command.hpp"
 #include "tools/words/option_values.hpp"
 #include "tools/words/question_words.hpp"
 

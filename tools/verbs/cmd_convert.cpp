@@ -3,26 +3,18 @@
 // export: a roadmap in the words of other programs, by the ending of the file. Both: route graphs with fewer nodes.
 #include <fmt/format.h>
 
-#include <string>
-#include <string_view>
-
 #include "apps/serve/graphs/route_graph.hpp"
 #include "apps/serve/http/http_message.hpp"
-#include "core/base/error.hpp"
 #include "pictures/formats/write_picture.hpp"
+#include "scenes/files/plane_formats_io.hpp"
 #include "scenes/files/read_world_io.hpp"
-#include "scenes/files/ros_map_io.hpp"
-#include "scenes/text/human_units.hpp"
-#include "scenes/text/input_file_io.hpp"
 #include "scenes/text/output_file_io.hpp"
 #include "solve/answer/world_account.hpp"
 #include "solve/kept/export_roadmap.hpp"
 #include "solve/question/planner_choice.hpp"
-#include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/screen/world_files.hpp"
-#include "tools/words/command.hpp"
 #include "tools/words/option_values.hpp"
 #include "tools/words/question_words.hpp"
 #include "worlds/rasters/lattice_polygons.hpp"
@@ -48,9 +40,32 @@ constexpr OptionSpec convert_specs[] = {
     {"--clearance", "R", "with --world: room to keep around the body (default: the world's, else 0)"},
 };
 
-int simplify_graph(const Arguments& arguments, const std::string& file) {
+/// D of --simplify, for graphs that are written to the file.
+double simplified_within(const Arguments& arguments, const std::string& file) {
   const double within = *given_value(arguments, "--simplify", number_value, 0.0, largest_coordinate);
   if (!file.ends_with(".geojson")) throw UsageError("--simplify: a route graph is written as -o FILE.geojson");
+  return within;
+}
+
+/// source: where the graph is from; made() gives it whole, and the one with fewer nodes that is written.
+template <class Made>
+int write_simplified(Run& run, const std::string& source, const std::string& file, const Made& made) {
+  try {
+    const auto [whole, few] = made();
+    write_file(file, serve::nav2_graph_text(few, serve::ends_of(few), run.execution()), run.execution());
+    run.end();
+    run.conclude([&, &whole = whole, &few = few] {
+      return fmt::format("{}: {} of {} nodes, {} of {} edges\n", run.palette().strong(file), grouped(few.nodes.size()),
+                         grouped(whole.nodes.size()), grouped(few.edges.size()), grouped(whole.edges.size()));
+    });
+  } catch (const serve::HttpError& error) {
+    throw InputError(source, error.what());
+  }
+  return exit_code::success;
+}
+
+int simplify_graph(const Arguments& arguments, const std::string& file) {
+  const double within = simplified_within(arguments, file);
   const auto world = arguments.value("--world");
   arguments.refuse({"--cell"}, "is for a world; a route graph has none");
   picture_words(arguments, false, "a picture");
@@ -58,21 +73,13 @@ int simplify_graph(const Arguments& arguments, const std::string& file) {
   Run run(arguments);
   const Scene scene = world ? load_world(*world, arguments, run.execution()) : Scene{};
   const InputFile input(arguments.operand(0), run.execution());
-  try {
-    const serve::RouteGraph graph = serve::read_nav2_graph(input.bytes(), run.execution());
-    const serve::RouteGraph few =
-        world ? serve::simplified_in(scene, question_words(arguments), graph, within, run.execution())
-              : serve::simplified(graph, within, {}, run.execution());
-    write_file(file, serve::nav2_graph_text(few, serve::ends_of(few), run.execution()), run.execution());
-    run.end();
-    if (!run.quiet() && file != "-") {
-      print_text(fmt::format("{}: {} of {} nodes, {} of {} edges\n", run.palette().strong(file), few.nodes.size(),
-                             graph.nodes.size(), few.edges.size(), graph.edges.size()));
-    }
-  } catch (const serve::HttpError& error) {
-    throw InputError(input.name(), error.what());
-  }
-  return exit_code::success;
+  return write_simplified(run, input.name(), file, [&] {
+    serve::RouteGraph whole = serve::read_nav2_graph(input.bytes(), run.execution());
+    serve::RouteGraph few = world
+                                ? serve::simplified_in(scene, question_words(arguments), whole, within, run.execution())
+                                : serve::simplified(whole, within, {}, run.execution());
+    return std::pair(std::move(whole), std::move(few));
+  });
 }
 
 std::string write_any(Scene& scene, const std::string& file, const Arguments& arguments, const PictureOptions& options,
@@ -95,11 +102,6 @@ std::string write_any(Scene& scene, const std::string& file, const Arguments& ar
   return is_picture(ending_of(file)) ? std::string() : note_of_left_out(scene, file);
 }
 
-Scene load_converted(const Arguments& arguments, const Execution& execution) {
-  check_not_written(arguments, question_words(arguments).robot);
-  return load_world_alone(arguments.operand(0), arguments, execution, "--simplify, or for ");
-}
-
 int convert(const Arguments& arguments) {
   const auto file = arguments.value("--output");
   if (!file) throw UsageError("-o FILE is missing");
@@ -113,12 +115,12 @@ int convert(const Arguments& arguments) {
   const PictureOptions options =
       picture_words(arguments, is_picture(ending_of(*file)), "-o FILE.svg or another picture", *file);
   Run run(arguments);
-  Scene scene = load_converted(arguments, run.execution());
+  check_not_written(arguments, question_words(arguments).robot);
+  Scene scene = load_world_alone(arguments.operand(0), arguments, run.execution(), "--simplify, or for ");
   const std::string note =
-      run.in_stage("write", [&] { return write_any(scene, *file, arguments, options, run.execution()); });
+      run.in_stage("write", nullptr, [&] { return write_any(scene, *file, arguments, options, run.execution()); });
   run.end();
-  if (!run.quiet() && *file != "-")
-    print_text(fmt::format("{}: {}\n", run.palette().strong(*file), description_of(scene)));
+  run.conclude([&] { return fmt::format("{}: {}\n", run.palette().strong(*file), description_of(scene)); });
   if (!run.quiet()) say_on_standard_error(note);
   return exit_code::success;
 }
@@ -137,27 +139,18 @@ constexpr OptionSpec export_specs[] = {
 };
 
 int export_simplified(const Arguments& arguments, const std::string& file, const std::string& frame) {
-  const double within = *given_value(arguments, "--simplify", number_value, 0.0, largest_coordinate);
-  if (!file.ends_with(".geojson")) throw UsageError("--simplify: a route graph is written as -o FILE.geojson");
+  const double within = simplified_within(arguments, file);
   if (arguments.has("--unchecked")) throw UsageError("--simplify: keeps free edges alone; leave out --unchecked");
   Run run(arguments);
   const Roadmap roadmap = load_roadmap(arguments, run.execution());
-  try {
-    const serve::RouteGraph whole = serve::graph_of_roadmap(roadmap, run.execution());
+  return write_simplified(run, arguments.operand(0), file, [&] {
+    serve::RouteGraph whole = serve::graph_of_roadmap(roadmap, run.execution());
     const Question body{.robot = serve::body_on_edges(roadmap), .clearance = roadmap.clearance};
     serve::RouteGraph few =
         serve::simplified_in(roadmap.world.whole(run.execution()), body, whole, within, run.execution());
     few.frame = frame;
-    write_file(file, serve::nav2_graph_text(few, serve::ends_of(few), run.execution()), run.execution());
-    run.end();
-    run.conclude(file == "-", {}, [&] {
-      return fmt::format("{}: {} of {} nodes, {} of {} edges\n", run.palette().strong(file), grouped(few.nodes.size()),
-                         grouped(whole.nodes.size()), grouped(few.edges.size()), grouped(whole.edges.size()));
-    });
-  } catch (const serve::HttpError& error) {
-    throw InputError(arguments.operand(0), error.what());
-  }
-  return exit_code::success;
+    return std::pair(std::move(whole), std::move(few));
+  });
 }
 
 int export_roadmap_file(const Arguments& arguments) {
@@ -179,7 +172,7 @@ int export_roadmap_file(const Arguments& arguments) {
   const Roadmap roadmap = load_roadmap(arguments, run.execution());
   const ExportAccount account = export_of_roadmap(roadmap, *file, options, run.execution());
   run.end();
-  run.conclude(file == "-", {}, [&] {
+  run.conclude([&] {
     return fmt::format("{}: {} vertices, {} edges; left out: {} unchecked, {} blocked\n", run.palette().strong(*file),
                        grouped(account.vertices), grouped(account.edges), grouped(account.unchecked_left_out),
                        grouped(account.blocked_left_out));

@@ -5,17 +5,13 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <string>
-#include <vector>
 
-#include "core/base/error.hpp"
 #include "core/base/printable.hpp"
 #include "scenes/text/input_file_io.hpp"
 #include "scenes/text/output_file_io.hpp"
-#include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
+#include "tools/screen/run_of_verb.hpp"
 #include "tools/verbs/example_files.hpp"
-#include "tools/words/command.hpp"
 #include "tools/words/option_values.hpp"
 
 namespace warren::tools {

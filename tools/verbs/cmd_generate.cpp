@@ -2,24 +2,16 @@
 // warren generate: writes a maze of any size, or any number of polygons, the same for the same seed on every machine.
 #include <fmt/format.h>
 
-#include <optional>
-#include <string>
-
-#include "core/base/error.hpp"
 #include "pictures/formats/write_picture.hpp"
 #include "scenes/files/maze_file_io.hpp"
 #include "scenes/files/npy_io.hpp"
 #include "scenes/files/read_world_io.hpp"
-#include "scenes/mazes/maze_generator.hpp"
 #include "scenes/mazes/spanning_maze.hpp"
 #include "scenes/scene/polygon_generator.hpp"
-#include "scenes/text/human_units.hpp"
 #include "solve/answer/world_account.hpp"
-#include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/screen/world_files.hpp"
-#include "tools/words/command.hpp"
 #include "tools/words/option_values.hpp"
 #include "tools/words/question_words.hpp"
 
@@ -43,10 +35,16 @@ constexpr OptionSpec generate_specs[] = {
 
 MazeOptions maze_options(const Arguments& arguments) {
   arguments.refuse({"--corners"}, "an option of generate polygons");
-  MazeOptions options = parse_maze_source("maze:" + arguments.operand(1));
-  if (arguments.operand(1).find(',') != std::string::npos) {
-    throw UsageError("expected ROWSxCOLS (found: '" + arguments.operand(1) +
-                     "'); seed, algorithm and loops are options");
+  const std::string& size = arguments.operand(1);
+  if (size.find(',') != std::string::npos) {
+    throw UsageError(fmt::format("expected ROWSxCOLS (found: '{}'); seed, algorithm and loops are options", size));
+  }
+  MazeOptions options;
+  try {
+    options = parse_maze_source("maze:" + size);
+  } catch (const UsageError& error) {  // "maze:SIZE: what is wrong; expected maze:..."
+    const std::string_view said = std::string_view(error.what()).substr(std::string_view("maze:").size());
+    throw UsageError(fmt::format("{}; expected ROWSxCOLS", said.substr(0, said.rfind("; expected "))));
   }
   options.seed = seed_word(arguments);
   return maze_words(arguments, options);
@@ -67,7 +65,7 @@ PolygonOptions polygon_options(const Arguments& arguments) {
 int generate_packed(const MazeOptions& options, bool merged, const std::string& file, Run& run) {
   const Execution& execution = run.execution();
   double seconds = 0.0;
-  run.in_stage("generate", seconds, [&] {
+  run.in_stage("generate", &seconds, [&] {
     if (options.algorithm != MazeAlgorithm::mst) {
       return write_maze_file(HeldCells(generate_maze(options, execution), CellBits::usual_side_log2), file, execution);
     }
@@ -76,10 +74,10 @@ int generate_packed(const MazeOptions& options, bool merged, const std::string& 
     write_maze_file(maze, file, execution);
   });
   run.end();
-  if (!run.quiet()) {
-    print_text(fmt::format("{}: {} x {} maze, generated and written in {}\n", run.palette().strong(file), options.rows,
-                           options.cols, human_seconds(seconds)));
-  }
+  run.conclude([&] {
+    return fmt::format("{}: {} x {} maze, generated and written in {}\n", run.palette().strong(file), options.rows,
+                       options.cols, human_seconds(seconds));
+  });
   return exit_code::success;
 }
 
@@ -101,11 +99,11 @@ int generate(const Arguments& arguments) {
   const bool is_mst = maze && maze->algorithm == MazeAlgorithm::mst;
   if (maze && (ending == ".maze" || (ending == ".npy" && is_mst))) return generate_packed(*maze, merged, *file, run);
   double seconds = 0.0;
-  Scene scene = run.in_stage("generate", seconds, [&] {
+  Scene scene = run.in_stage("generate", &seconds, [&] {
     return maze ? maze_scene(*maze, merged, run.execution()) : polygon_scene(polygons, run.execution());
   });
   double write_seconds = 0.0;
-  const std::string note = run.in_stage("write", write_seconds, [&] {
+  const std::string note = run.in_stage("write", &write_seconds, [&] {
     const auto bounds = scene.bounds;
     if (ending == ".wkt") scene.bounds.reset();  // or no polygons could be written there
     say_of_picture(arguments, *file, write_world(scene, *file, options, arguments.command_line(), run.execution()));
@@ -113,10 +111,10 @@ int generate(const Arguments& arguments) {
     return is_picture(ending) ? std::string() : note_of_left_out(scene, *file);
   });
   run.end();
-  if (!run.quiet() && *file != "-") {
-    print_text(fmt::format("{}: {}, generated in {}, written in {}\n", run.palette().strong(*file),
-                           description_of(scene), human_seconds(seconds), human_seconds(write_seconds)));
-  }
+  run.conclude([&] {
+    return fmt::format("{}: {}, generated in {}, written in {}\n", run.palette().strong(*file), description_of(scene),
+                       human_seconds(seconds), human_seconds(write_seconds));
+  });
   if (!run.quiet()) say_on_standard_error(note);
   return exit_code::success;
 }

@@ -7,13 +7,10 @@
 
 #include <cstdlib>
 #include <ctime>
-#include <span>
-#include <utility>
 
 #include "core/base/error.hpp"
 #include "scenes/text/output_file_io.hpp"
-#include "tools/screen/exit_code.hpp"
-#include "tools/words/command.hpp"
+#include "tools/screen/run_of_verb.hpp"
 #include "tools/words/help.hpp"
 
 namespace warren::tools {

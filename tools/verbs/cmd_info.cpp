@@ -3,29 +3,20 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <memory>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
 #include <system_error>
-#include <utility>
 
 #include "core/base/printable.hpp"
+#include "scenes/arms/arm_files_io.hpp"
 #include "scenes/files/maze_file_io.hpp"
 #include "scenes/files/read_world_io.hpp"
-#include "scenes/text/human_units.hpp"
-#include "scenes/text/input_file_io.hpp"
 #include "scenes/text/output_file_io.hpp"
 #include "solve/answer/world_account.hpp"
 #include "solve/kept/roadmap_file_io.hpp"
 #include "solve/kept/roadmap_sections.hpp"
-#include "solve/question/question_of_arm.hpp"
-#include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/screen/world_files.hpp"
-#include "tools/words/command.hpp"
+#include "worlds/arms/serial_chain.hpp"
 
 namespace warren::tools {
 namespace {
@@ -77,13 +68,15 @@ std::vector<Fact> world_facts(const std::string& path, const std::optional<Input
   return facts;
 }
 
-std::vector<Fact> robot_facts(const std::string& path, const Arguments& arguments, const Execution& execution) {
-  RobotSpec robot{.kind = RobotKind::urdf, .files = ArmFiles{.urdf = path}};
+std::vector<Fact> robot_facts(const InputFile& file, const Arguments& arguments, const Execution& execution) {
+  ArmFiles files{.urdf = arguments.operand(0)};
   const auto said = [&](std::string_view option) { return std::string(arguments.value(option).value_or("")); };
-  robot.files->srdf = said("--srdf");
-  robot.files->group = said("--group");
-  if (const std::string folder = said("--package-path"); !folder.empty()) robot.files->packages.push_back(folder);
-  return facts_of(arm_model_of(robot, 0.0, execution));
+  files.srdf = said("--srdf");
+  files.group = said("--group");
+  if (const std::string folder = said("--package-path"); !folder.empty()) files.packages.push_back(folder);
+  ArmModel model = read_urdf(files, file, execution);
+  leave_out_touching(model, execution);
+  return facts_of(model);
 }
 
 int info(const Arguments& arguments) {
@@ -109,7 +102,7 @@ int info(const Arguments& arguments) {
     as_json = text = roadmap_info(std::move(roadmap), check, run.execution());
   } else {
     const std::vector<Fact> facts =
-        is_robot ? robot_facts(path, arguments, run.execution()) : world_facts(path, file, arguments, run.execution());
+        is_robot ? robot_facts(*file, arguments, run.execution()) : world_facts(path, file, arguments, run.execution());
     as_json = facts_json(facts);
     for (const Fact& fact : facts) {
       text += fmt::format("{}{}\n", run.palette().faint(fmt::format("{:<10} ", fact.name)), printable(fact.text));
@@ -117,7 +110,7 @@ int info(const Arguments& arguments) {
   }
   run.end();
   if (json) write_file(*json, as_json, run.execution());
-  if (!run.quiet() && json != "-") print_text(text);
+  run.conclude([&] { return text; });
   return exit_code::success;
 }
 

@@ -7,29 +7,17 @@
 
 #include <algorithm>
 #include <map>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "apps/studies/machine.hpp"
 #include "apps/studies/statistics.hpp"
 #include "apps/studies/study_report.hpp"
-#include "core/run/execution.hpp"
-#include "core/run/trace.hpp"
 #include "pictures/model/axis.hpp"
-#include "pictures/plots/plot.hpp"
-#include "scenes/scene/scene.hpp"
-#include "scenes/text/human_units.hpp"
 #include "solve/answer/answer.hpp"
 #include "solve/answer/explanation_text.hpp"
-#include "solve/question/question.hpp"
-#include "solve/question/solve_options.hpp"
 #include "solve/solve.hpp"
-#include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/screen/world_files.hpp"
-#include "tools/words/command.hpp"
 #include "tools/words/option_values.hpp"
 #include "tools/words/question_words.hpp"
 
@@ -215,7 +203,7 @@ int profile(const Arguments& arguments) {
   const SolveOptions options = solve_words(arguments);
   check_not_written(arguments, question.robot, question.prices);
   const auto runs = given_count(arguments, "--runs", 1, most_runs).value_or(usual_runs);
-  const bool standard_output_taken = check_reports(arguments, {"--json", "--picture"});
+  check_reports(arguments, {"--json", "--picture"});
   check_plots(arguments);
   Run run(arguments);
   const Scene scene = load_planned_world(arguments.operand(0), options.roadmap.pipeline, arguments, run.execution());
@@ -225,8 +213,8 @@ int profile(const Arguments& arguments) {
   write_report(arguments, "--json", [&] { return profile_json(profile); });
   write_plots(arguments, run.execution_for_what_is_left(), is_stopped,
               [&] { return PlotsPage{{profile_bars(profile)}}; });
-  run.conclude(standard_output_taken, is_stopped ? profile.answer.stop_reason : std::nullopt,
-               [&] { return profile_summary(profile, run.palette()); });
+  run.conclude([&] { return profile_summary(profile, run.palette()); },
+               is_stopped ? profile.answer.stop_reason : std::nullopt);
   if (is_stopped) return exit_code_of(profile.answer.stop_reason.value_or(StopReason::time));
   return profile.answer.verified ? exit_code::success : exit_code::no_path;
 }

@@ -4,17 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 #include "core/base/error.hpp"
-#include "scenes/text/human_units.hpp"
 #include "solve/explain_answer.hpp"
 #include "solve/kept/ask_batch_io.hpp"
 #include "solve/kept/roadmap_file_io.hpp"
-#include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/world_files.hpp"
 #include "tools/verbs/answer_command.hpp"

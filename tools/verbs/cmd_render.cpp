@@ -2,19 +2,14 @@
 // warren render: a picture of a world, with an answer's path on it, or of a roadmap.
 #include <fmt/format.h>
 
-#include <utility>
-
 #include "core/base/error.hpp"
 #include "pictures/draw_answer.hpp"
 #include "pictures/formats/write_picture.hpp"
 #include "solve/answer/read_answer_io.hpp"
 #include "solve/answer/world_account.hpp"
-#include "solve/question/question.hpp"
-#include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/screen/world_files.hpp"
-#include "tools/words/command.hpp"
 #include "tools/words/question_words.hpp"
 #include "worlds/rasters/lattice_polygons.hpp"
 
@@ -68,12 +63,10 @@ int render(const Arguments& arguments) {
   Picture picture = picture_of(scene, drawing);
   picture.description = fmt::format("{}\n{}", drawing.subtitle, arguments.command_line());
   const std::vector<std::string> notes =
-      run.in_stage("draw", [&] { return write_picture(file, picture, options, run.execution()); });
+      run.in_stage("draw", nullptr, [&] { return write_picture(file, picture, options, run.execution()); });
   run.end();
   say_of_picture(arguments, file, notes);
-  if (!run.quiet() && file != "-") {
-    print_text(fmt::format("{}: {}\n", run.palette().strong(file), description_of(scene)));
-  }
+  run.conclude([&] { return fmt::format("{}: {}\n", run.palette().strong(file), description_of(scene)); });
   return exit_code::success;
 }
 

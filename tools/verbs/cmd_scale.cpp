@@ -9,12 +9,9 @@
 
 #include "apps/studies/largest_maze.hpp"
 #include "apps/studies/scaling_study.hpp"
-#include "core/base/error.hpp"
 #include "solve/question/planner_choice.hpp"
-#include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"
-#include "tools/words/command.hpp"
 #include "tools/words/option_values.hpp"
 #include "tools/words/question_words.hpp"
 
@@ -93,7 +90,7 @@ int exit_code(const studies::ScalingResult& result) {
 
 int scale(const Arguments& arguments) {
   const studies::ScalingOptions options = scaling_options(arguments);
-  const bool standard_output_taken = check_reports(arguments, {"--json", "--csv", "--html"});
+  check_reports(arguments, {"--json", "--csv", "--html"});
   Run run(arguments, RunScope::each_run_and_threads);
   const studies::ScalingResult result =
       studies::run_scaling_study(options, run.execution(), [&](std::string_view line) { run.note(line); });
@@ -101,7 +98,7 @@ int scale(const Arguments& arguments) {
   write_report(arguments, "--json", [&] { return studies::scaling_json(options, result); });
   write_report(arguments, "--csv", [&] { return studies::scaling_csv(result); });
   write_report(arguments, "--html", [&] { return studies::scaling_page(result, arguments.command_line()); });
-  run.conclude(standard_output_taken, result.signal, [&] { return studies::scaling_summary(result, run.palette()); });
+  run.conclude([&] { return studies::scaling_summary(result, run.palette()); }, result.signal);
   return exit_code(result);
 }
 
@@ -187,7 +184,7 @@ int exit_code(const studies::LargestResult& result) {
 
 int largest(const Arguments& arguments) {
   const studies::LargestOptions options = largest_options(arguments);
-  const bool standard_output_taken = check_reports(arguments, {"--json", "--picture"});
+  check_reports(arguments, {"--json", "--picture"});
   check_plots(arguments);
   Run run(arguments, RunScope::each_run);
   const studies::LargestResult result =
@@ -196,8 +193,7 @@ int largest(const Arguments& arguments) {
   write_report(arguments, "--json", [&] { return studies::largest_json(options, result); });
   write_plots(arguments, run.execution(), result.signal.has_value(),
               [&] { return PlotsPage{{studies::largest_plot(options, result)}}; });
-  run.conclude(standard_output_taken, result.signal,
-               [&] { return studies::largest_summary(options, result, run.palette()); });
+  run.conclude([&] { return studies::largest_summary(options, result, run.palette()); }, result.signal);
   return exit_code(result);
 }
 

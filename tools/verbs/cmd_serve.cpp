@@ -5,20 +5,10 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
-#include <memory>
-#include <string>
-#include <utility>
 
-#include "apps/serve/api/served_world.hpp"
 #include "apps/serve/api/world_service.hpp"
-#include "apps/serve/http/http_server.hpp"
-#include "core/base/error.hpp"
-#include "core/base/solution.hpp"
-#include "scenes/text/input_file_io.hpp"
-#include "tools/screen/exit_code.hpp"
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/screen/world_files.hpp"
-#include "tools/words/command.hpp"
 #include "tools/words/option_values.hpp"
 #include "tools/words/question_words.hpp"
 

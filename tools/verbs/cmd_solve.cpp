@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <utility>
 
 #include "core/base/error.hpp"
 #include "scenes/files/read_world_io.hpp"

@@ -2,25 +2,17 @@
 // warren verify: is the path of an answer free, all along and with all its clearance? Decided by verify/ alone.
 #include <fmt/format.h>
 
-#include <optional>
-#include <string>
-#include <string_view>
-
 #include "core/base/error.hpp"
 #include "scenes/files/npy_io.hpp"
-#include "scenes/scene/scene.hpp"
-#include "scenes/text/human_units.hpp"
 #include "scenes/text/output_file_io.hpp"
 #include "solve/answer/explanation_text.hpp"
 #include "solve/answer/read_answer_io.hpp"
 #include "solve/answer/write_answer_io.hpp"
 #include "solve/explain_answer.hpp"
 #include "solve/solve.hpp"
-#include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/screen/world_files.hpp"
-#include "tools/words/command.hpp"
 #include "tools/words/question_words.hpp"
 
 namespace warren::tools {
@@ -82,7 +74,7 @@ int verify_answer(const Arguments& arguments) {
       load_planned_world(arguments.operand(0), std::nullopt, arguments, run.execution(), nullptr, answer.problem.robot);
   check_not_written(arguments, answer.problem.robot);
   const Verdict verdict = run.in_stage(
-      "verify", [&] { return verify_within(scene, question, answer, run.execution()); },
+      "verify", nullptr, [&] { return verify_within(scene, question, answer, run.execution()); },
       answer.path.size() + scene.walls.size());
   const bool explains = arguments.has("--explain");
   std::optional<NarrowPlace> narrow;
@@ -94,7 +86,7 @@ int verify_answer(const Arguments& arguments) {
   run.end();
   const std::string told = explains ? narrowest_json(narrow) : "";
   if (json) write_file(*json, verdict_json(verdict, told), run.execution_for_what_is_left());
-  if (!run.quiet() && json != "-") {
+  if (!run.quiet() && !(json && is_standard_output(*json))) {
     print_verdict(verdict, metres_behind(unit_of(scene)), run.palette());
     if (narrow) print_text(text_of(*narrow) + "\n");
   }

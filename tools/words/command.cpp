@@ -7,7 +7,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/printable.hpp"
-#include "tools/words/unknown_words.hpp"
+#include "tools/words/help.hpp"
 
 namespace warren::tools {
 

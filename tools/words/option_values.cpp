@@ -11,7 +11,7 @@
 #include "apps/studies/comparison.hpp"
 #include "core/base/printable.hpp"
 #include "scenes/scene/arm_model.hpp"
-#include "tools/words/unknown_words.hpp"
+#include "tools/words/help.hpp"
 
 namespace warren::tools {
 namespace {
@@ -119,7 +119,7 @@ std::vector<double> state_value(std::string_view option, std::string_view text) 
     const std::size_t end = std::min(text.find_first_of(separators, at), text.size());
     const auto number = number_or_degrees(text.substr(at, end - at));
     if (!number || std::abs(*number) > largest_coordinate) refuse(option, expected, text);
-    state.push_back(*number);
+    state.push_back(*number + 0.0);  // -0 is 0
     at = text.find_first_not_of(separators, end);
   }
   if (state.empty() || state.size() > most_joints) refuse(option, expected, text);

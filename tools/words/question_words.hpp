@@ -43,7 +43,7 @@ std::span<const OptionSpec> maze_option_specs();
 /// Algorithm and loops as the command line says, all else as it is in `usual`. Throws UsageError.
 MazeOptions maze_words(const Arguments& arguments, MazeOptions usual = {});
 
-// Planners: all of `solve`, or those that `largest` and `scale` try (planner_words.cpp).
+// Planners: all of `solve`, or those that `largest` and `scale` try.
 
 /// --planner --sampler --samples --neighbours --radius --search --queue --lazy --pipeline --optimise --seed: of the
 /// planners that build roadmaps of samples.
@@ -67,7 +67,7 @@ std::string_view option_flag(Option option);
 /// The other way; none: planners are not asked about it.
 std::optional<Option> option_of_words(std::string_view words);
 
-// How a picture looks; for every verb that draws (output_words.cpp).
+// How a picture looks; for every verb that draws.
 
 /// --show --heading --size --dpi --title
 std::span<const OptionSpec> picture_option_specs();

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The loop that all judges share: the legs of a path one by one, by all threads, and what they come to. The result is
-// that of the legs in their order, whatever the threads.
+// What all judges check before they look at a path. Above all: a judge sees every part of the scene that can be in its
+// body's way, or it refuses the scene; what nobody looked at is never called free.
+//
+// Then the loop that all judges share: the legs of a path one by one, by all threads, and what they come to. The result
+// is that of the legs in their order, whatever the threads.
 #pragma once
 
 #include <algorithm>
@@ -15,13 +18,27 @@
 #include "core/base/types.hpp"
 #include "core/run/execution.hpp"
 #include "parallel/chunks.hpp"
+#include "scenes/scene/scene.hpp"
 #include "verify/exact/exact_segments.hpp"
 #include "verify/judges/verification.hpp"
 #include "verify/judges/verify_point.hpp"
-#include "verify/near/leg_boxes.hpp"
 #include "verify/near/obstacle_index.hpp"
 
 namespace warren {
+
+/// Throws InputError for paths and options that no judge of points and discs takes, as verify_path() says.
+void check_judged_path(std::span<const Vec2> path, const VerifyOptions& options, const Execution& execution);
+
+/// For bodies in the plane: walls, polygons and bounds, or a map, beside which there are no walls but along its blocked
+/// cells. Throws InputError for all else: solids, a map with polygons or bounds, a scene that holds nothing
+/// at all (nothing would confine the body). O(1), but for a map with walls: O(their length in cells).
+void check_plane_scene(const Scene& scene, const Execution& execution);
+
+/// For arms: spheres, boxes and other solids, or free space. Throws InputError for walls, polygons, bounds and maps.
+void check_space_scene(const Scene& scene);
+
+/// Throws InputError, naming it, unless the number is in 0 .. largest_coordinate.
+void check_not_negative(std::string_view name, double value);
 
 /// What is known of a leg, or of several.
 struct LegReport {
@@ -54,6 +71,9 @@ Violation elsewhere(std::string_view which, std::span<const double> wanted, doub
 struct WrongEnds {
   std::optional<Violation> start, goal;
 };
+
+/// Of a path of points, of so many legs, of which the first and the last point are looked at.
+WrongEnds wrong_ends(std::span<const Vec2> path, const VerifyOptions& options, std::size_t legs);
 
 /// Start before all legs, the goal after them. Leaves it to the caller to measure the path.
 Verification verdict_on(const LegReport& legs, const WrongEnds& ends);

@@ -12,7 +12,6 @@
 #include "core/base/types.hpp"
 #include "core/base/whole.hpp"
 #include "verify/judges/judged_arm.hpp"
-#include "verify/judges/judged_input.hpp"
 #include "verify/judges/leg_reports.hpp"
 
 namespace warren {
@@ -317,6 +316,7 @@ class ArmLeg {
   Known known_of(const Pair& pair) {
     const JudgedBody& a = bodies_[pair.body];
     const JudgedBody& b = other_of(pair);
+    watch(a, b);
     const PlacedCore at_a{a.core, frame_of(pair.body)};
     const PlacedCore at_b{b.core, pair.of_arm ? frame_of(pair.other) : b.frame};
     const auto behind = as_whole<std::size_t>(judge_.arm.joint_behind(a.joint, b.joint) + 1);
@@ -332,7 +332,6 @@ class ArmLeg {
     constexpr double unmet = std::numeric_limits<double>::infinity();
     const double by_balls = (at_b.frame.at - at_a.frame.at).norm() - a.core.far - b.core.far - first_order;
     if (by_balls > wanted) return {by_balls, unmet, way, rounding};
-    watch(a, b);
     const SolidGap gap =
         gap_between(at_a, at_b, std::max(0.05 * way, rounding), (wanted + first_order) * (1.0 + 1e-14));
     Known known{gap.least - first_order, gap.most - radii, way, rounding};
@@ -357,7 +356,7 @@ class ArmLeg {
     const JudgedFrame& frame = frames_[as_whole<std::size_t>(joint + 1)];
     return {frame.spin - against.spin, frame.drift - against.drift};
   }
-  /// Asks whether it is time to stop, now and then: measuring hulls takes long.
+  /// Asks whether it is time to stop, now and then: obstacles may be many, and measuring hulls takes long.
   void watch(const JudgedBody& a, const JudgedBody& b) {
     constexpr std::size_t corners_a_look = 1 << 14;
     work_ += 64 + a.core.corners.size() + b.core.corners.size();
@@ -408,7 +407,6 @@ void check_input(std::span<const JointState> path, const ArmVerifyOptions& optio
     throw InputError(fmt::format("path: state {}", i), "must be numbers of at most 1e60");
   }
   check_not_negative("clearance", options.clearance);
-  check_not_negative("tolerance", options.tolerance);
 }
 
 }  // namespace

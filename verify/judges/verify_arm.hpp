@@ -36,12 +36,13 @@ struct ArmVerifyOptions {
   std::optional<JointState> goal = {};   ///< where it must end
   std::optional<Vec3> goal_place = {};   ///< where the tool must end
   std::optional<Eigen::Isometry3d> goal_pose = {};  ///< the same with the tool's turn
-  double tolerance = 1e-9;  ///< of start, goal and limits: an angle or distance that still counts as there
+  /// Of start, goal and limits: an angle or distance that still counts as there.
+  static constexpr double tolerance = 1e-9;
 };
 
 /// The arm among the scene's spheres, boxes and solids, or in free space, within its limits, with the links of its
 /// pairs apart. Continuous variables go the shorter way; where that is half a turn, as std::remainder has it. Throws
-/// InputError for scenes with walls, polygons, bounds or a map: these have no height (verify/judges/judged_input); and
+/// InputError for scenes with walls, polygons, bounds or a map: these have no height (verify/judges/leg_reports); and
 /// for models whose numbers name no joint, variable or link, whose frames are not rigid within 1e-12. The path has at
 /// least one state, all finite (InputError otherwise); a single state is a leg of length zero. A leg that runs within a
 /// millionth of the arm's size of an obstacle, beyond the clearance, may count as not free. min_clearance is of the arm

@@ -302,6 +302,7 @@ class Proof {
         for (std::size_t i = 0; i < 4; ++i) {
           const double slope = slope_in(x, y, i);
           if (slope <= 1.0 - rounding) continue;
+          execution_.check();  // a price may ask thousands of columns
           const double least = least_price(x, y, i);
           if (slope * (1.0 + rounding) <= least) continue;
           return fmt::format("the certificate rises by {} a unit in its cell {}, {}, where a path pays {}", slope, x, y,

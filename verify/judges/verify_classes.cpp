@@ -19,10 +19,12 @@ Bitmap cells_without_room(const OccupancyMap& map, double keeps, const Execution
   const auto width = std::int64_t{map.width()};
   const auto height = std::int64_t{map.height()};
   const auto around = std::min(width, bounded_whole<std::int64_t>(0.5 * half_cells + 2.0, 1.0, 1e9));
-  execution.reserve(sizeof(std::int32_t) * map.blocked.size() + map.blocked.bytes());
-  std::vector<std::int32_t> rows_off(as_whole<std::size_t>(width * height));  // to the nearest blocked row
+  const auto stride = width + 2 * around;  // columns beyond the map, all blocked, on both sides
+  const auto count = as_whole<std::size_t>(stride * height);
+  execution.reserve(sizeof(std::int32_t) * count + map.blocked.bytes());
+  std::vector<std::int32_t> rows_off(count);  // to the nearest blocked row
   const auto at = [&](std::int64_t x, std::int64_t y) -> std::int32_t& {
-    return rows_off[as_whole<std::size_t>(y * width + x)];
+    return rows_off[as_whole<std::size_t>(y * stride + x + around)];
   };
   for (std::int64_t y = 0; y < height; ++y) {
     execution.check();
@@ -46,16 +48,8 @@ Bitmap cells_without_room(const OccupancyMap& map, double keeps, const Execution
     std::fill(is_near.begin(), is_near.end(), std::uint8_t{0});
     for (std::int64_t off = -around; off <= around; ++off) {
       const std::int32_t rows = near_rows[as_whole<std::size_t>(std::abs(off))];
-      for (std::int64_t x = 0; x < std::min(width, -off) && rows > 0; ++x) is_near[as_whole<std::size_t>(x)] = 1;
-      for (std::int64_t x = std::max<std::int64_t>(0, width - off); x < width && rows > 0; ++x) {
-        is_near[as_whole<std::size_t>(x)] = 1;
-      }
-      const std::int64_t first = std::max<std::int64_t>(0, -off);
-      const std::int64_t last = std::min(width, width - off);
-      if (first >= last) continue;
-      const std::int32_t* row = &at(first + off, y);
-      std::uint8_t* into = &is_near[as_whole<std::size_t>(first)];
-      for (std::int64_t i = 0; i < last - first; ++i) into[i] |= row[i] < rows ? 1 : 0;
+      const std::int32_t* row = &at(off, y);
+      for (std::size_t x = 0; x < is_near.size(); ++x) is_near[x] |= row[x] < rows ? 1 : 0;
     }
     for (std::int64_t x = 0; x < width; ++x) {
       if (is_near[as_whole<std::size_t>(x)] != 0) closed.set(as_whole<std::uint32_t>(x), as_whole<std::uint32_t>(y));
@@ -105,6 +99,7 @@ class Holes {
     }
     Bitmap ends = closed;  // where cuts end: small holes are passed over
     for (const auto& [number, e] : holes) {
+      execution.check();
       const bool at_border =
           e.box.min.x == 0.0 || e.box.min.y == 0.0 || e.box.max.x == closed.width() || e.box.max.y == closed.height();
       if (!at_border && std::max(e.box.width(), e.box.height()) < least) {

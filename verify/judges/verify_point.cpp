@@ -12,7 +12,6 @@
 #include "core/base/whole.hpp"
 #include "parallel/chunks.hpp"
 #include "verify/exact/exact_segments.hpp"
-#include "verify/judges/judged_input.hpp"
 #include "verify/judges/leg_reports.hpp"
 
 namespace warren {
@@ -207,12 +206,11 @@ void check_judged_path(std::span<const Vec2> path, const VerifyOptions& options,
   }
   check_not_negative("radius", options.radius);
   check_not_negative("clearance", options.clearance);
-  check_not_negative("tolerance", options.tolerance);
 }
 
 WrongEnds wrong_ends(std::span<const Vec2> path, const VerifyOptions& options, std::size_t legs) {
   const auto wrong = [&](std::string_view which, const std::optional<Vec2>& wanted, Vec2 end, std::size_t leg) {
-    if (!wanted || norm(end - *wanted) <= options.tolerance) return std::optional<Violation>();
+    if (!wanted || norm(end - *wanted) == 0.0) return std::optional<Violation>();
     return std::optional(elsewhere(which, std::array{wanted->x, wanted->y}, norm(end - *wanted), leg));
   };
   return {wrong("start", options.start, path.front(), 0), wrong("goal", options.goal, path.back(), legs - 1)};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Is this path free? Independent of everything that found it: nothing from spatial/ and no predicate of
 // core/plane/geometry is used; distances and orientations are computed by verify/exact/exact_segments, exact where they
-// decide. The obstacles are streamed past the path (verify/judges/legs_against_obstacles), so that millions of legs
+// decide. The obstacles are streamed past the path (verify/judges/leg_reports), so that millions of legs
 // among hundreds of millions of walls take seconds: O(walls + legs) on paths as planners find them, memory of the order
 // of the legs. Where long legs cross most of the scene it is O(walls * legs) at worst.
 #pragma once
@@ -22,7 +22,6 @@
 namespace warren {
 
 class ObstacleIndex;  // verify/near/obstacle_index.hpp
-struct WrongEnds;     // verify/judges/leg_reports.hpp
 
 enum class Contact : std::uint8_t { blocked, allowed };
 constexpr auto enum_names(Contact) { return std::array<std::string_view, 2>{"blocked", "allowed"}; }
@@ -33,7 +32,6 @@ struct VerifyOptions {
   Contact contact = Contact::blocked;  ///< with reach 0: touching counts as blocked, or only crossing
   std::optional<Vec2> start = {};      ///< where the path must begin; nullopt: anywhere
   std::optional<Vec2> goal = {};       ///< where it must end
-  double tolerance = 0.0;              ///< distance from start and goal that still counts as there; >= 0
 
   /// What the reference point keeps from every obstacle.
   double reach() const { return clearance + radius; }
@@ -41,7 +39,7 @@ struct VerifyOptions {
 
 /// Point or disc among the scene's walls, polygons and bounds; on a map by its cells (verify_on_map()), where
 /// contact can't be allowed. Throws InputError for scenes that hold anything else, or nothing
-/// (verify/judges/judged_input). The path has at least one point, all finite, fewer than 500 million (InputError
+/// (verify/judges/leg_reports). The path has at least one point, all finite, fewer than 500 million (InputError
 /// otherwise); a single point is a leg of length zero. The points must lie in the box of walls and polygons, or in the
 /// bounds. The result is the same for any number of threads, with an index of this scene and without: with it a verdict
 /// takes what the path does, not the scene. Of a map there is none: its cells are looked up anyway.
@@ -54,11 +52,5 @@ Verification verify_path(const Scene& scene, std::span<const Vec2> path, const V
 /// threads; throws Stopped.
 Verification verify_on_map(const OccupancyMap& map, std::span<const Vec2> path, const VerifyOptions& options,
                            const Execution& execution);
-
-/// Throws InputError for paths and options that no judge of points and discs takes, as said above.
-void check_judged_path(std::span<const Vec2> path, const VerifyOptions& options, const Execution& execution);
-
-/// Of a path of points, of so many legs, of which the first and the last point are looked at.
-WrongEnds wrong_ends(std::span<const Vec2> path, const VerifyOptions& options, std::size_t legs);
 
 }  // namespace warren

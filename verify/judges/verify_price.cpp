@@ -1,22 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "verify/judges/verify_price.hpp"
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <optional>
-#include <vector>
 
 #include "core/base/error.hpp"
 #include "core/base/trigonometry.hpp"
-#include "core/base/types.hpp"
 #include "core/base/whole.hpp"
 #include "verify/exact/exact_segments.hpp"
-#include "verify/judges/judged_factors.hpp"
 #include "verify/near/obstacle_index.hpp"
 #include "verify/near/sides_near_legs.hpp"
-#include "verify/near/straight_runs.hpp"
 
 namespace warren {
 namespace {
@@ -266,7 +260,7 @@ class NearSides {
 // in the piece's middle bounds the integral from both sides, in closed form. A piece is halved until both are as near
 // as a thousandth of what it costs; half of what is left is the error. The distance is the least between corners of
 // the one and sides of the other, since a body that is free crosses nothing; from piece to half only those pairs are
-// kept that may be the least there. Areas are priced where the reference point is (verify/judges/judged_factors.hpp).
+// kept that may be the least there. Areas are priced where the reference point is (JudgedFactors).
 
 /// A leg by shares from 0 to 1.
 struct BodyLeg {
@@ -303,8 +297,7 @@ double square_to(Vec2 p, const Segment& s) {
 class BodyNearness {
  public:
   BodyNearness(const Scene& scene, const RobotSpec& robot, const ClearancePrice& price, const Execution& execution)
-      : obstacles_(scene),
-        surroundings_(scene, obstacles_, nullptr, execution),
+      : surroundings_(scene, nullptr, execution),
         execution_(execution),
         outline_(robot.outline.empty() ? std::vector<Vec2>{Vec2{}} : robot.outline),
         radius_(robot.radius),
@@ -333,7 +326,11 @@ class BodyNearness {
       const Box box = box_of_part(leg, i, count);
       surroundings_.gather(std::span(&box, 1), sides_, execution_);
       pairs_.clear();
+      const std::size_t most = 2 * outline_.size() * sides_.size();
+      if (most > pairs_.capacity()) execution_.reserve(most * (sizeof(Pair) + sizeof(double)));
+      pairs_.reserve(most);
       for (std::uint32_t side = 0; side < sides_.size(); ++side) {
+        execution_.poll(polled_++);
         for (std::uint32_t k = 0; k < outline_.size(); ++k) {
           pairs_.push_back({k, side, true});
           if (outline_.size() > 1) pairs_.push_back({k, side, false});
@@ -382,9 +379,7 @@ class BodyNearness {
 
   /// The pairs that count are the last ones of pairs_; they are left as they are.
   void piece(const BodyLeg& leg, double from, double to, int depth) {
-    constexpr std::uint64_t a_poll = 256;
     constexpr int deepest = 45;
-    if (++polled_ % a_poll == 0) execution_.check();
     const Se2 pose = leg.pose(0.5 * (from + to));
     const auto [sine, cosine] = portable::sin_and_cos(pose.theta);
     corners_.clear();
@@ -396,6 +391,7 @@ class BodyNearness {
     distances_.resize(last);
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = first; i < last; ++i) {
+      execution_.poll(polled_++);
       distances_[i] = distance_of(pairs_[i]) - radius_;
       least = std::min(least, distances_[i]);
     }
@@ -424,7 +420,6 @@ class BodyNearness {
     begin_ = first;
   }
 
-  const Obstacles obstacles_;
   PathSurroundings surroundings_;
   const Execution& execution_;
   std::vector<Vec2> outline_;

@@ -11,10 +11,8 @@
 #include "core/base/error.hpp"
 #include "core/base/trigonometry.hpp"
 #include "verify/exact/exact_segments.hpp"
-#include "verify/judges/judged_input.hpp"
 #include "verify/judges/leg_reports.hpp"
 #include "verify/near/sides_near_legs.hpp"
-#include "verify/near/straight_runs.hpp"
 
 namespace warren {
 namespace {
@@ -75,9 +73,7 @@ class BodyVerifier {
   BodyVerifier(const Scene& scene, std::span<const Vec2> outline, double clearance, double poses_off,
                const Execution& execution, const ObstacleIndex* index)
       : index_(index),
-        own_obstacles_(index == nullptr ? std::optional<Obstacles>(scene) : std::nullopt),
-        obstacles_(index == nullptr ? *own_obstacles_ : index->obstacles()),
-        surroundings_(scene, obstacles_, index, execution),
+        surroundings_(scene, index, execution),
         outline_(outline),
         clearance_(clearance),
         poses_off_(poses_off),
@@ -155,8 +151,9 @@ class BodyVerifier {
     } else if (!surroundings_.box().grown(poses_off_).contains({pose.x, pose.y})) {
       return bad(fmt::format("box: {} {} is outside the box of the obstacles", pose.x, pose.y));
     }
-    if (const auto ring = ring_around(obstacles_, index_, corners.front(), execution_)) {
-      return bad(fmt::format("polygon {}: holds {} {}", obstacles_.rings()[*ring].polygon, corners.front().x,
+    const Obstacles& obstacles = surroundings_.obstacles();
+    if (const auto ring = ring_around(obstacles, index_, corners.front(), execution_)) {
+      return bad(fmt::format("polygon {}: holds {} {}", obstacles.rings()[*ring].polygon, corners.front().x,
                              corners.front().y));
     }
     return {};
@@ -327,8 +324,6 @@ class BodyVerifier {
   }
 
   const ObstacleIndex* index_;  // nullptr: all obstacles are passed over
-  std::optional<Obstacles> own_obstacles_;
-  const Obstacles& obstacles_;
   PathSurroundings surroundings_;
   std::span<const Vec2> outline_;
   double clearance_;
@@ -520,6 +515,15 @@ class CarVerifier {
   double tolerance_ = 0.0;
 };
 
+/// Throws InputError unless a body has no corner (a disc) or at least three.
+void check_outline(std::span<const Vec2> outline) {
+  if (!outline.empty() && outline.size() < 3) throw InputError("robot", "a polygon needs three corners or more");
+  for (const Vec2 p : outline) {
+    if (std::abs(p.x) <= largest_coordinate && std::abs(p.y) <= largest_coordinate) continue;
+    throw InputError("robot", "must have corners of at most 1e60", fmt::format("{} {}", p.x, p.y));
+  }
+}
+
 void check_car(const RobotSpec& car) {
   if (!(car.turning_radius > 0.0 && car.turning_radius <= largest_coordinate)) {
     throw InputError("robot: turning radius", "must be a number above 0", fmt::format("{}", car.turning_radius));
@@ -529,8 +533,8 @@ void check_car(const RobotSpec& car) {
   check_outline(car.outline);
 }
 
-}  // namespace
-
+/// Throws InputError for paths, options and scenes that no judge of bodies with a heading takes: unless there is a
+/// pose, and each has coordinates and a heading within the limits.
 void check_judged_poses(const Scene& scene, std::span<const Se2> path, const PoseVerifyOptions& options,
                         const Execution& execution) {
   if (path.empty()) throw InputError("path", "has no poses");
@@ -544,7 +548,6 @@ void check_judged_poses(const Scene& scene, std::span<const Se2> path, const Pos
     }
   }
   check_not_negative("clearance", options.clearance);
-  check_not_negative("tolerance", options.tolerance);
   check_plane_scene(scene, execution);
 }
 
@@ -559,6 +562,8 @@ WrongEnds wrong_ends(std::span<const Se2> path, const PoseVerifyOptions& options
   return {wrong("start", options.start, path.front(), false, 0),
           wrong("goal", options.goal, path.back(), options.any_heading, legs_of(path.size()) - 1)};
 }
+
+}  // namespace
 
 Verification verify_se2(const Scene& scene, std::span<const Vec2> outline, std::span<const Se2> path,
                         const PoseVerifyOptions& options, const Execution& execution, const ObstacleIndex* index) {

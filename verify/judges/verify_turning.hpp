@@ -7,7 +7,7 @@
 // clearance. O(obstacles) once, but for maps, then O(legs * sides near them * corners) and what the halves near
 // obstacles cost.
 // Legs without a turn need no halving: what the body sweeps there is a polygon. Legs that go on straight or turn on the
-// spot are judged as one (verify/near/straight_runs), so what is near a path over a lattice is looked at once.
+// spot are judged as one (pose_runs()), so what is near a path over a lattice is looked at once.
 #pragma once
 
 #include <optional>
@@ -21,18 +21,17 @@
 namespace warren {
 
 class ObstacleIndex;  // verify/near/obstacle_index.hpp
-struct WrongEnds;     // verify/judges/leg_reports.hpp
 
 struct PoseVerifyOptions {
-  double clearance = 0.0;         ///< room around the body all along the path; >= 0; 0: touching is blocked
-  std::optional<Se2> start = {};  ///< where the path must begin; nullopt: anywhere
-  std::optional<Se2> goal = {};   ///< where it must end
-  bool any_heading = false;       ///< the goal's angle doesn't matter
-  double tolerance = 1e-9;        ///< of start and goal: distance and angle that still count as there; >= 0
+  double clearance = 0.0;                    ///< room around the body all along the path; >= 0; 0: touching is blocked
+  std::optional<Se2> start = {};             ///< where the path must begin; nullopt: anywhere
+  std::optional<Se2> goal = {};              ///< where it must end
+  bool any_heading = false;                  ///< the goal's angle doesn't matter
+  static constexpr double tolerance = 1e-9;  ///< of start and goal: distance and angle that still count as there
 };
 
 /// The body among the scene's walls, polygons and bounds; on a map among its cells, whose borders it reads from the
-/// bits. Throws InputError for scenes that hold anything else, or nothing (verify/judges/judged_input). On a leg the
+/// bits. Throws InputError for scenes that hold anything else, or nothing (verify/judges/leg_reports). On a leg the
 /// reference point goes straight while the body turns evenly the shorter way; a leg of half a turn must be free both
 /// ways. The path has at least one pose, all finite (InputError otherwise); a single pose is a leg of length zero. A
 /// turning leg that runs within some millionths of the body's radius of an obstacle, beyond the clearance, may count as
@@ -51,12 +50,5 @@ Verification verify_se2(const Scene& scene, std::span<const Vec2> outline, std::
 Verification verify_car(const Scene& scene, const RobotSpec& car, std::span<const Se2> path,
                         const PoseVerifyOptions& options, const Execution& execution,
                         const ObstacleIndex* index = nullptr);
-
-/// Throws InputError for paths, options and scenes that no judge of bodies with a heading takes: unless there is a
-/// pose, and each has coordinates and a heading within the limits.
-void check_judged_poses(const Scene& scene, std::span<const Se2> path, const PoseVerifyOptions& options,
-                        const Execution& execution);
-
-WrongEnds wrong_ends(std::span<const Se2> path, const PoseVerifyOptions& options);
 
 }  // namespace warren

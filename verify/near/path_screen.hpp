@@ -30,7 +30,7 @@
 #include "core/base/types.hpp"
 #include "core/plane/wall_set.hpp"
 #include "core/run/execution.hpp"
-#include "verify/near/leg_boxes.hpp"
+#include "verify/near/obstacle_index.hpp"
 
 namespace warren {
 // From coordinates to the cells of a PathScreen, along one axis, in units of 1/256 of a cell.

@@ -14,35 +14,54 @@
 namespace warren {
 namespace {
 
-/// Boxes of which one or none meets another box.
-class MetBoxes {
- public:
-  MetBoxes(std::span<const Box> boxes, const Execution& execution)
-      : boxes_(boxes),
-        blocks_(
-            boxes.size(), [&](std::size_t i) { return boxes[i]; }, execution) {}
-
-  bool meet(const Box& other) const {
+/// Says of another box whether it meets one of these, which must outlive it.
+auto meeting(std::span<const Box> boxes, const Execution& execution) {
+  const auto box_of_number = [boxes](std::size_t i) { return boxes[i]; };
+  return [boxes, blocks = BoxBlocks(boxes.size(), box_of_number, execution)](const Box& other) {
     bool found = false;
-    blocks_.for_each([&](const Box& block) { return found || !block.meets(other); },
-                     [&](std::size_t i) { found = found || boxes_[i].meets(other); });
+    blocks.for_each([&](const Box& block) { return found || !block.meets(other); },
+                    [&](std::size_t i) { found = found || boxes[i].meets(other); });
     return found;
-  }
+  };
+}
 
- private:
-  std::span<const Box> boxes_;
-  BoxBlocks blocks_;
-};
+constexpr double most_turn_rad = 3.0;  // so that the run's turn is the shorter way between its ends, too
+
+/// All poses from first to last in one direction, and how far each of them is from the line.
+bool is_straight(std::span<const Se2> poses, double bend) {
+  const Vec2 way = poses.back().position() - poses.front().position();
+  const double length_sq = dot(way, way);
+  const double most_cross = bend * std::sqrt(length_sq);
+  return std::all_of(poses.begin(), poses.end(), [&](const Se2& pose) {
+    const Vec2 p = pose.position() - poses.front().position();
+    const double along = dot(way, p);
+    const bool on_the_way = length_sq > 0.0 ? along >= 0.0 && along <= length_sq : p == Vec2{};
+    return pose.theta == poses.front().theta && on_the_way && std::abs(cross(way, p)) <= most_cross;
+  });
+}
+
+bool turns_on_the_spot(std::span<const Se2> poses) {
+  double sum = 0.0;
+  const bool left = shorter_turn(poses[0].theta, poses[1].theta) > 0.0;
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    const double turn = shorter_turn(poses[i - 1].theta, poses[i].theta);
+    sum += turn;
+    if (!(poses[i].position() == poses[0].position()) || (turn > 0.0) != left) return false;
+  }
+  return std::abs(sum) < most_turn_rad;
+}
 
 }  // namespace
 
-PathSurroundings::PathSurroundings(const Scene& scene, const Obstacles& obstacles, const ObstacleIndex* index,
-                                   const Execution& execution)
-    : scene_(scene), obstacles_(obstacles), index_(scene.map ? nullptr : index) {
+PathSurroundings::PathSurroundings(const Scene& scene, const ObstacleIndex* index, const Execution& execution)
+    : scene_(scene),
+      own_(index == nullptr ? std::optional<Obstacles>(scene) : std::nullopt),
+      obstacles_(index == nullptr ? *own_ : index->obstacles()),
+      index_(scene.map ? nullptr : index) {
   if (scene.map) {
     extent_.box = extent_.with_bounds = world_box(*scene.map);
   } else {
-    extent_ = index != nullptr ? index->extent() : extent_of(obstacles, execution);
+    extent_ = index != nullptr ? index->extent() : extent_of(obstacles_, execution);
   }
 }
 
@@ -50,11 +69,11 @@ PathSurroundings::PathSurroundings(const Scene& scene, const Obstacles& obstacle
 void PathSurroundings::file(std::span<const Box> boxes, const Execution& execution) {
   if (scene_.map || index_ != nullptr) return;
   constexpr std::size_t grain = std::size_t{1} << 14;
-  const MetBoxes asked(boxes, execution);
+  const auto is_asked = meeting(boxes, execution);
   const auto near_in = [&](Range r) {
     RawVector<std::size_t> near;
     for (std::size_t i = r.first; i < r.last; ++i) {
-      if (asked.meet(box_of(obstacles_.segment(i)))) near.push_back(i);
+      if (is_asked(box_of(obstacles_.segment(i)))) near.push_back(i);
     }
     return near;
   };
@@ -70,14 +89,14 @@ void PathSurroundings::gather(std::span<const Box> boxes, std::vector<NearSide>&
     for (const Box& box : boxes) gather_from_map(box, sides, execution);
     return;
   }
-  const MetBoxes asked(boxes, execution);
+  const auto is_asked = meeting(boxes, execution);
   const auto visit = [&](std::size_t i) {
     const std::size_t number = index_ != nullptr ? i : near_[i];
     const Segment segment = obstacles_.segment(number);
-    if (asked.meet(box_of(segment))) push_asked(sides, {segment, number}, execution);
+    if (is_asked(box_of(segment))) push_asked(sides, {segment, number}, execution);
   };
   const BoxBlocks& filed = index_ != nullptr ? index_->sides() : *near_sides_;
-  filed.for_each([&](const Box& block) { return !asked.meet(block); }, visit);
+  filed.for_each([&](const Box& block) { return !is_asked(block); }, visit);
   std::sort(sides.begin(), sides.end(), [](const NearSide& a, const NearSide& b) { return a.number < b.number; });
 }
 
@@ -152,6 +171,43 @@ std::string PathSurroundings::name(std::uint64_t number) const {
   if (!scene_.map) return obstacles_.name(number);
   if (number == NearSide::outside) return "map: the body reaches outside";
   return fmt::format("cell {}, {}", number % scene_.map->width(), number / scene_.map->width());
+}
+
+double shorter_turn(double a, double b) {
+  constexpr double full_turn = 2.0 * std::numbers::pi;
+  double turn = b - a;
+  turn -= full_turn * std::floor(turn / full_turn + 0.5);
+  return turn;
+}
+
+bool is_there(const Se2& pose, const Se2& wanted, bool any_heading, double tolerance) {
+  if (portable::hypot(pose.x - wanted.x, pose.y - wanted.y) > tolerance) return false;
+  return any_heading || std::abs(shorter_turn(pose.theta, wanted.theta)) <= tolerance;
+}
+
+Leg leg_of(std::span<const Se2> path, const PoseRun& run) {
+  const Se2& a = path[run.first];
+  const Se2& b = path[run.last];
+  return {a, b.position() - a.position(), shorter_turn(a.theta, b.theta)};
+}
+
+std::vector<PoseRun> pose_runs(std::span<const Se2> path, double bend, const Execution& execution) {
+  constexpr std::size_t most_legs = 1024;
+  constexpr std::size_t runs_a_poll = 1024;
+  if (path.size() == 1) return {PoseRun{0, 0}};
+  std::vector<PoseRun> runs;
+  for (std::size_t first = 0; first + 1 < path.size();) {
+    if (runs.size() % runs_a_poll == 0) execution.reserve(runs_a_poll * sizeof(PoseRun));  // and polls
+    std::size_t legs = 1;
+    while (2 * legs <= most_legs && first + 2 * legs < path.size()) {
+      const std::span<const Se2> poses = path.subspan(first, 2 * legs + 1);
+      if (!is_straight(poses, bend) && !turns_on_the_spot(poses)) break;
+      legs *= 2;
+    }
+    runs.push_back({first, first + legs});
+    first += legs;
+  }
+  return runs;
 }
 
 }  // namespace warren

@@ -218,7 +218,6 @@ class alignas(32) ArmMotion {
  private:
   [[gnu::always_inline]] inline void begin(const ArmBlock<T>& block) {
     middle_ = lanes_at<T>(block.middle.data());
-    for (unsigned i = 0; i < width; ++i) middles_[i] = block.middle[i];
     half_ = block.half;
     slack_ = tables_.slack + tables_.way_slack * speed_ * half_;
     placed_ = 0;
@@ -563,7 +562,7 @@ class alignas(32) ArmMotion {
     ArmMotion<double> exact(setup_, setup_.doubles, arm_scratch<double>());
     if constexpr (sizeof(T) == sizeof(float)) {
       if (!exact.take(q_, all_way_)) return false;
-      exact.place_at(double{middles_[lane]});
+      exact.place_at(double{middle_[lane]});
       lane = 0;
     }
     const MovingFrame at = exact.frame_of(slot, slot, lane, 0.0);
@@ -608,7 +607,6 @@ class alignas(32) ArmMotion {
   T speed_ = 0;   // sum of the sizes
   T travel_ = 0;  // of any point, at most
   Lanes<T> middle_;
-  std::array<T, width> middles_;
   T half_;
   T slack_;
   std::size_t placed_;

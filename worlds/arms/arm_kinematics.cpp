@@ -104,11 +104,8 @@ class ToolSearch {
   ToolSearch(const ArmKinematics& arm, const ToolGoal& goal) : arm_(arm), goal_(goal) {
     const ArmModel& model = arm.model();
     length_ = model.tool.translation().norm();
-    for (int at = model.tool_frame; at != base_frame;) {
-      const ArmJoint& joint = model.joints[as_number(at)];
-      length_ += joint.origin.translation().norm();
-      at = joint.parent;
-    }
+    for (int at = model.tool_frame; at != base_frame; at = model.joints[frame_number(at)].parent)
+      length_ += model.joints[frame_number(at)].origin.translation().norm();
     if (!(length_ > 0.0)) length_ = 1.0;
   }
 
@@ -140,7 +137,6 @@ class ToolSearch {
 
  private:
   using Jacobian = std::array<ToolError, most_joints>;
-  static std::size_t as_number(int frame) { return as_whole<std::size_t>(frame); }
 
   bool is_reached() const {
     constexpr double near = 0.5e-9;
@@ -160,15 +156,15 @@ class ToolSearch {
     if (!goal_.place_only) turn = turn_between(last.turn * model.tool.linear(), goal_.pose.linear());
     error_ = {way.x(), way.y(), way.z(), turn.x(), turn.y(), turn.z()};
     columns_ = {};
-    for (int at = model.tool_frame; at != base_frame; at = model.joints[as_number(at)].parent) {
-      const ArmJoint& joint = model.joints[as_number(at)];
-      const MovingFrame& frame = posture_[as_number(at)];
+    for (int at = model.tool_frame; at != base_frame; at = model.joints[frame_number(at)].parent) {
+      const ArmJoint& joint = model.joints[frame_number(at)];
+      const MovingFrame& frame = posture_[frame_number(at)];
       const Vec3 axis = joint.multiplier * (frame.turn * joint.axis);
       const Vec3 by_way = (joint.slides ? axis : Vec3(axis.cross(tip - frame.at))) / length_;
       const Vec3 by_turn = joint.slides || goal_.place_only ? Vec3(Vec3::Zero()) : axis;
       for (int k = 0; k < 3; ++k) {
-        columns_[joint.variable][as_number(k)] += by_way[k];
-        columns_[joint.variable][as_number(k) + 3] += by_turn[k];
+        columns_[joint.variable][as_whole<std::size_t>(k)] += by_way[k];
+        columns_[joint.variable][as_whole<std::size_t>(k) + 3] += by_turn[k];
       }
     }
     return std::inner_product(error_.begin(), error_.end(), error_.begin(), 0.0);
@@ -221,15 +217,13 @@ ArmKinematics::ArmKinematics(ArmModel model) : model_(std::move(model)) {
   std::vector<double> reach(model_.joints.size(), 0.0);
   for (const ArmLink& link : model_.links) {
     for (const Solid& solid : link.solids) {
-      const Vec3 along = solid.half.z() * solid.pose.linear().col(2);
+      const double half = solid.kind == SolidKind::sphere ? 0.0 : solid.half.z();
+      const Vec3 along = half * solid.pose.linear().col(2);
       const Vec3 middle = solid.pose.translation();
       const double rim = solid.kind == SolidKind::cylinder ? solid.half.x() : 0.0;
-      if (solid.kind == SolidKind::sphere) add_reach(link.frame, middle, 0.0, solid.half.x(), reach);
-      if (solid.kind == SolidKind::cylinder || solid.kind == SolidKind::capsule) {
-        const double margin = solid.half.x() - rim;
-        add_reach(link.frame, middle - along, rim, margin, reach);
-        add_reach(link.frame, middle + along, rim, margin, reach);
-      }
+      const bool is_round = solid.kind != SolidKind::box && solid.kind != SolidKind::hull;
+      for (const double end : {-1.0, 1.0})
+        if (is_round) add_reach(link.frame, middle + end * along, rim, solid.half.x() - rim, reach);
       for (int corner = 0; corner < 8 && solid.kind == SolidKind::box; ++corner) {
         const Vec3 sides(corner & 1 ? 1.0 : -1.0, corner & 2 ? 1.0 : -1.0, corner & 4 ? 1.0 : -1.0);
         add_reach(link.frame, placed_point(solid.pose, solid.half.cwiseProduct(sides)), 0.0, 0.0, reach);

@@ -2,6 +2,7 @@
 #include "worlds/arms/arm_certificate.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -434,33 +435,26 @@ class ArmBuilder {
   double size_ = 0.0;
 };
 
-template <std::size_t n>
-std::array<float, n> floats_of(const std::array<double, n>& from) {
-  std::array<float, n> to;
-  std::transform(from.begin(), from.end(), to.begin(), [](double x) { return static_cast<float>(x); });
-  return to;
-}
-
-void copy_balls(const std::vector<Doubles::Ball>& from, std::vector<ArmTables<float>::Ball>& to) {
-  for (const Doubles::Ball& b : from) {
-    to.push_back({static_cast<float>(b.x), static_cast<float>(b.y), static_cast<float>(b.z),
-                  static_cast<float>(b.outer), static_cast<float>(b.inner)});
+/// Of numbers, or of structs of nothing but numbers, in floats.
+template <class From, class To>
+void copy_numbers(const std::vector<From>& from, std::vector<To>& to) {
+  for (const From& some : from) {
+    const auto numbers = std::bit_cast<std::array<double, sizeof(From) / sizeof(double)>>(some);
+    std::array<float, sizeof(To) / sizeof(float)> floats;
+    std::transform(numbers.begin(), numbers.end(), floats.begin(), [](double x) { return static_cast<float>(x); });
+    to.push_back(std::bit_cast<To>(floats));
   }
 }
 
 /// But for what stands for rounding.
 void copy_tables(const Doubles& from, ArmTables<float>& to) {
-  for (const auto& frame : from.frames) to.frames.push_back({floats_of(frame.turn), floats_of(frame.at)});
-  copy_balls(from.hulls, to.hulls);
-  copy_balls(from.balls, to.balls);
-  for (const auto& o : from.obstacles) {
-    to.obstacles.push_back({static_cast<float>(o.x), static_cast<float>(o.y), static_cast<float>(o.z),
-                            floats_of(o.axes), floats_of(o.half), static_cast<float>(o.inflate)});
-  }
-  for (std::size_t row = 0; row < from.bounds.size(); ++row)
-    to.bounds[row].assign(from.bounds[row].begin(), from.bounds[row].end());
-  to.reach.assign(from.reach.begin(), from.reach.end());
-  to.pair_reach.assign(from.pair_reach.begin(), from.pair_reach.end());
+  copy_numbers(from.frames, to.frames);
+  copy_numbers(from.hulls, to.hulls);
+  copy_numbers(from.balls, to.balls);
+  copy_numbers(from.obstacles, to.obstacles);
+  for (std::size_t row = 0; row < from.bounds.size(); ++row) copy_numbers(from.bounds[row], to.bounds[row]);
+  copy_numbers(from.reach, to.reach);
+  copy_numbers(from.pair_reach, to.pair_reach);
   to.clearance = static_cast<float>(from.clearance);
 }
 

@@ -8,8 +8,6 @@
 
 #include "core/base/error.hpp"
 #include "core/base/trigonometry.hpp"
-#include "core/base/types.hpp"
-#include "parallel/asked_memory.hpp"
 
 namespace warren {
 

@@ -69,7 +69,6 @@ class ArmWorld {
   std::size_t unit_dimension() const { return ways_.size(); }
   const ArmModel& model() const { return kinematics_.model(); }
   const ArmKinematics& kinematics() const { return kinematics_; }
-  std::size_t variable_count() const { return ways_.size(); }
   double resolution() const { return resolution_; }
 
  private:

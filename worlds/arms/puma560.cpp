@@ -1,5 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/arms/puma560.hpp"
+// The Unimation Puma 560: its Denavit-Hartenberg table (metres, after Corke and Armstrong-Helouvry, ICRA 1994), its
+// joint limits, its inverse kinematics in closed form, and a search for postures at a place.
+//
+// Inverse kinematics (after Paul and Zhang, Int. J. Robotics Research 5(2), 1986) of a wrist whose angles are given:
+// the tip's place gives the shoulder on two sides and for each the elbow on two: four branches, and each angle again a
+// full turn further where the limits leave room for that. Where an end of the reach makes two branches one, it is told
+// once.
+//
+// Which postures bring the tool's tip to a place, for an arm of the Puma 560's shape? Joints 4 and 5 are free, and for
+// each turn of theirs the first three follow in closed form. So the two are searched: their limits are halved again and
+// again, and a piece is dropped where no turn in it can do. That is proved: all turns of a piece keep the tip, seen
+// from frame 3, in a ball, and the closed form, with intervals for numbers, then says between which angles joints 1, 2
+// and 3 would have to be; where that is beyond a joint's limits for either shoulder and elbow, the piece can't do. The
+// middles of pieces of one size are tried, so what is found is spread evenly.
+#include "worlds/arms/serial_chain.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -33,8 +47,6 @@ constexpr std::array<std::array<double, 2>, 6> classic_degrees{
 constexpr std::array<std::array<double, 2>, 6> symmetric_degrees{
     {{-160, 160}, {-110, 110}, {-135, 135}, {-266, 266}, {-100, 100}, {-266, 266}}};
 
-bool is_near(double x, double y) { return std::abs(x - y) <= 1e-12; }
-
 /// A root; nothing where the square is below zero by more than rounding.
 std::optional<double> root_of(double square, double scale) {
   if (square < -slack * scale) return std::nullopt;
@@ -47,49 +59,33 @@ Complex turned_by(double angle) {
   return {cosine, sine};
 }
 
-/// The first three angles for which a point that is fixed in frame 3 comes to a place.
-class ShoulderAndElbow {
- public:
-  /// point: in frame 3.
-  ShoulderAndElbow(const DhTable& table, const Vec3& point)
-      : upper_arm_(table.joints[1].a),
-        forearm_(table.joints[2].a + point.x(), point.z()),
-        side_(table.joints[2].d - point.y()) {}
+/// The root and its negative; 0 once.
+std::vector<double> both_signs(double x) { return x == 0.0 ? std::vector<double>{x} : std::vector<double>{x, -x}; }
 
-  std::vector<Angles> solve(const Vec3& place) const {
-    const double scale = place.squaredNorm() + std::norm(forearm_) + upper_arm_ * upper_arm_ + side_ * side_;
-    const auto ahead = root_of(place.x() * place.x() + place.y() * place.y() - side_ * side_, scale);
-    std::vector<Angles> found;
-    if (!ahead) return found;
-    for (const double forward : both_signs(*ahead)) {
-      const double first = portable::atan2(place.y(), place.x()) - portable::atan2(-side_, forward);
-      add_elbows(first, {forward, place.z()}, scale, found);
-    }
-    return found;
-  }
-
- private:
-  static std::vector<double> both_signs(double x) {
-    return x == 0.0 ? std::vector<double>{x} : std::vector<double>{x, -x};
-  }
-  /// target: in the arm's plane, ahead and up.
-  void add_elbows(double first, Complex target, double scale, std::vector<Angles>& found) const {
-    const double twice = 2.0 * upper_arm_ * portable::hypot(forearm_.real(), forearm_.imag());
-    if (twice == 0.0) return;
-    const double cosine = (std::norm(target) - upper_arm_ * upper_arm_ - std::norm(forearm_)) / twice;
+/// The first three angles for which a point that is fixed in frame 3 comes to a place: two shoulders, two elbows each.
+std::vector<Angles> shoulders_and_elbows(const DhTable& table, const Vec3& point, const Vec3& place) {
+  const double upper_arm = table.joints[1].a;
+  const Complex forearm(table.joints[2].a + point.x(), point.z());  // along x3 and z3: in the plane that both move
+  const double side = table.joints[2].d - point.y();                // offset from that plane
+  const double scale = place.squaredNorm() + std::norm(forearm) + upper_arm * upper_arm + side * side;
+  const double twice = 2.0 * upper_arm * portable::hypot(forearm.real(), forearm.imag());
+  const auto ahead = root_of(place.x() * place.x() + place.y() * place.y() - side * side, scale);
+  std::vector<Angles> found;
+  if (!ahead || twice == 0.0) return found;
+  for (const double forward : both_signs(*ahead)) {
+    const double first = portable::atan2(place.y(), place.x()) - portable::atan2(-side, forward);
+    const Complex target(forward, place.z());  // in the arm's plane, ahead and up
+    const double cosine = (std::norm(target) - upper_arm * upper_arm - std::norm(forearm)) / twice;
     const auto sine = root_of(1.0 - cosine * cosine, scale / twice);
-    if (!sine) return;
+    if (!sine) continue;
     for (const double bend : both_signs(portable::atan2(*sine, cosine))) {
-      const double third = bend - angle_of(forearm_);
-      const Complex reached = upper_arm_ + turned_by(third) * forearm_;
+      const double third = bend - angle_of(forearm);
+      const Complex reached = upper_arm + turned_by(third) * forearm;
       found.push_back({first, angle_of(target) - angle_of(reached), third});
     }
   }
-
-  double upper_arm_;
-  Complex forearm_;  // along x3 and z3: in the plane that shoulder and elbow move
-  double side_;      // offset from that plane
-};
+  return found;
+}
 
 /// The angle and the full turns from it that are within a joint's limits: of many the few nearest to 0, for the arm
 /// stands alike in all of them, and six joints multiply.
@@ -135,8 +131,6 @@ struct Interval {
   double half() const { return 0.5 * (high - low); }
 };
 
-constexpr Interval any_angle{-std::numbers::pi, std::numbers::pi};
-
 /// Of a number that is at least 0.
 Interval square_of(const Interval& r) {
   const double least = r.low > 0.0 ? r.low : r.high < 0.0 ? r.high : 0.0;
@@ -153,74 +147,59 @@ Interval angles_of(const Interval& above, const Interval& below) {
   return {portable::acos(std::min(most, 1.0)), portable::acos(std::max(least, -1.0))};
 }
 
-/// What the first three joints would have to be for a tip that is somewhere in a ball, seen from frame 3.
-class FirstJoints {
- public:
-  FirstJoints(const SerialChain& chain, const Vec3& place)
-      : chain_(chain),
-        upper_arm_(chain.table().joints[1].a),
-        place_(place),
-        away_(portable::hypot(place.x(), place.y())) {}
+/// How steep a place of that height is, so far ahead.
+Interval rising(double height, const Interval& forward) {
+  if (height == 0.0) return forward.low > 0.0 ? Interval{0.0, 0.0} : Interval{-std::numbers::pi, std::numbers::pi};
+  const auto [low, high] = std::minmax({portable::atan2(height, forward.low), portable::atan2(height, forward.high)});
+  return {low, high};
+}
 
-  /// Can any tip so near this one do? Never false where one can.
-  bool can_reach(const Vec3& tip, double near) const {
-    const DhTable& table = chain_.table();
-    const double ahead = table.joints[2].a + tip.x();
-    const double forearm = portable::hypot(ahead, tip.z());
-    const double side = table.joints[2].d - tip.y();
-    if (std::max(side - near, -side - near) > away_) return false;
-    if (!(upper_arm_ > 0.0) || !(forearm > 2.0 * near)) return true;
-    const Interval sides{std::clamp(side - near, -away_, away_), std::clamp(side + near, -away_, away_)};
-    const Interval square = square_of(sides);
-    const Interval forward = root_of({away_ * away_ - square.high, away_ * away_ - square.low});
-    const Interval aside = -Interval{aside_of(sides.high), aside_of(sides.low)};
-    const Interval bent{portable::atan2(tip.z(), ahead) - portable::asin(near / forearm),
-                        portable::atan2(tip.z(), ahead) + portable::asin(near / forearm)};
-    const Interval far = square_of(forward) + square_of({place_.z(), place_.z()});
-    const Interval long_arm = square_of({forearm - near, forearm + near});
-    const double first = upper_arm_ * upper_arm_;
-    const Interval elbow = angles_of(far - Interval{first, first} - long_arm,
-                                     {2.0 * upper_arm_ * (forearm - near), 2.0 * upper_arm_ * (forearm + near)});
-    if (elbow.low > elbow.high) return false;
-    Interval shoulder{0.0, std::numbers::pi};
-    if (far.low > 0.0) {
-      shoulder = angles_of(far + Interval{first, first} - long_arm,
-                           {2.0 * upper_arm_ * std::sqrt(far.low), 2.0 * upper_arm_ * std::sqrt(far.high)});
-      if (shoulder.low > shoulder.high) return false;
-    }
-    const double turn = portable::atan2(place_.y(), place_.x());
-    const Interval up = rising(forward);
-    const Interval half{std::numbers::pi, std::numbers::pi};
-    const auto fits = [&](const Interval& q1, const Interval& rise) {
-      return (is_within(0, q1) || away_ == 0.0) && ((is_within(1, rise - shoulder) && is_within(2, elbow - bent)) ||
-                                                    (is_within(1, rise + shoulder) && is_within(2, -elbow - bent)));
-    };
-    return fits(Interval{turn, turn} + aside, up) || fits(Interval{turn, turn} - half - aside, half - up);
+/// Can the first three joints bring a tip to the place that is so near this one, seen from frame 3? Never false where
+/// they can.
+bool can_reach(const SerialChain& chain, const Vec3& place, const Vec3& tip, double near) {
+  const DhTable& table = chain.table();
+  const double upper_arm = table.joints[1].a;
+  const double away = portable::hypot(place.x(), place.y());  // from the axis of joint 1
+  const double ahead = table.joints[2].a + tip.x();
+  const double forearm = portable::hypot(ahead, tip.z());
+  const double side = table.joints[2].d - tip.y();
+  if (std::max(side - near, -side - near) > away) return false;
+  if (!(upper_arm > 0.0) || !(forearm > 2.0 * near)) return true;
+  const Interval sides{std::clamp(side - near, -away, away), std::clamp(side + near, -away, away)};
+  const Interval square = square_of(sides);
+  const Interval forward = root_of({away * away - square.high, away * away - square.low});
+  const auto aside_of = [away](double off) {  // of the place, ahead of the first joint, as seen in the arm's plane
+    return portable::atan2(-off, std::sqrt(std::max(0.0, away * away - off * off)));
+  };
+  const Interval aside = -Interval{aside_of(sides.high), aside_of(sides.low)};
+  const Interval bent{portable::atan2(tip.z(), ahead) - portable::asin(near / forearm),
+                      portable::atan2(tip.z(), ahead) + portable::asin(near / forearm)};
+  const Interval far = square_of(forward) + square_of({place.z(), place.z()});
+  const Interval long_arm = square_of({forearm - near, forearm + near});
+  const double first = upper_arm * upper_arm;
+  const Interval elbow = angles_of(far - Interval{first, first} - long_arm,
+                                   {2.0 * upper_arm * (forearm - near), 2.0 * upper_arm * (forearm + near)});
+  if (elbow.low > elbow.high) return false;
+  Interval shoulder{0.0, std::numbers::pi};
+  if (far.low > 0.0) {
+    shoulder = angles_of(far + Interval{first, first} - long_arm,
+                         {2.0 * upper_arm * std::sqrt(far.low), 2.0 * upper_arm * std::sqrt(far.high)});
+    if (shoulder.low > shoulder.high) return false;
   }
-
- private:
-  /// Of the place, ahead of the first joint, as seen in the arm's plane.
-  double aside_of(double side) const {
-    return portable::atan2(-side, std::sqrt(std::max(0.0, away_ * away_ - side * side)));
-  }
-  /// How steep the place is, so far ahead.
-  Interval rising(const Interval& forward) const {
-    if (place_.z() == 0.0) return forward.low > 0.0 ? Interval{0.0, 0.0} : any_angle;
-    const double a = portable::atan2(place_.z(), forward.low);
-    const double b = portable::atan2(place_.z(), forward.high);
-    return {std::min(a, b), std::max(a, b)};
-  }
-  bool is_within(std::size_t joint, const Interval& angles) const {
+  const double turn = portable::atan2(place.y(), place.x());
+  const Interval up = rising(place.z(), forward);
+  const Interval half{std::numbers::pi, std::numbers::pi};
+  const auto is_within = [&](std::size_t joint, const Interval& angles) {
     constexpr double rounding = 1e-9;
-    const double turns = std::ceil((chain_.low(joint) - rounding - angles.high) / whole_turn);
-    return angles.low + turns * whole_turn <= chain_.high(joint) + rounding;
-  }
-
-  const SerialChain& chain_;
-  double upper_arm_;
-  Vec3 place_;
-  double away_;  // of the place from the axis of joint 1
-};
+    const double turns = std::ceil((chain.low(joint) - rounding - angles.high) / whole_turn);
+    return angles.low + turns * whole_turn <= chain.high(joint) + rounding;
+  };
+  const auto fits = [&](const Interval& q1, const Interval& rise) {
+    return (is_within(0, q1) || away == 0.0) && ((is_within(1, rise - shoulder) && is_within(2, elbow - bent)) ||
+                                                 (is_within(1, rise + shoulder) && is_within(2, -elbow - bent)));
+  };
+  return fits(Interval{turn, turn} + aside, up) || fits(Interval{turn, turn} - half - aside, half - up);
+}
 
 /// Of joints 4 and 5.
 struct Piece {
@@ -248,7 +227,8 @@ bool has_puma560_shape(const SerialChain& chain) {
   constexpr std::array<bool, 6> any_a{false, true, true, false, false, false};
   for (std::size_t i = 0; i < standard_rows.size(); ++i) {
     const DhJoint& joint = table.joints[i];
-    if (!is_near(joint.alpha_rad, standard_rows[i].alpha_degrees * degree) || joint.offset_rad != 0.0) return false;
+    const double twist = joint.alpha_rad - standard_rows[i].alpha_degrees * degree;
+    if (!(std::abs(twist) <= 1e-12) || joint.offset_rad != 0.0) return false;
     if ((!any_d[i] && joint.d != 0.0) || (!any_a[i] && joint.a != 0.0)) return false;
   }
   const Vec3 tool = table.tool.translation();
@@ -262,7 +242,7 @@ std::vector<JointState> puma560_inverse_place(const SerialChain& chain, const Ve
   }
   const JointState bent{0.0, 0.0, 0.0, wrist[0], wrist[1], wrist[2]};
   std::vector<JointState> all;
-  for (const Angles& first : ShoulderAndElbow(chain.table(), tip_in_frame_3(chain, bent)).solve(place)) {
+  for (const Angles& first : shoulders_and_elbows(chain.table(), tip_in_frame_3(chain, bent), place)) {
     add_turns(chain, {first[0], first[1], first[2], wrist[0], wrist[1], wrist[2]}, all);
   }
   return all;
@@ -272,7 +252,6 @@ ToolPostures tool_postures(const SerialChain& chain, const Vec3& place, double s
                            const Execution& execution) {
   constexpr double finest = 1e-4;
   constexpr std::size_t most_pieces = 200'000;
-  const FirstJoints first(chain, place);
   const double tool = std::abs(chain.table().tool.translation().z());
   const double rounding = 1e-12 * (chain.reach() + place.norm());
   ToolPostures found;
@@ -285,14 +264,13 @@ ToolPostures tool_postures(const SerialChain& chain, const Vec3& place, double s
       execution.check();
       const JointState wrist{0.0, 0.0, 0.0, piece.fourth.middle(), piece.fifth.middle(), sixth};
       const double near = tool * (piece.fourth.half() + piece.fifth.half()) + rounding;
-      if (!first.can_reach(tip_in_frame_3(chain, wrist), near)) continue;
+      if (!can_reach(chain, place, tip_in_frame_3(chain, wrist), near)) continue;
       const auto states = puma560_inverse_place(chain, place, {wrist[3], wrist[4], wrist[5]});
       found.states.insert(found.states.end(), states.begin(), states.end());
+      const auto longer = piece.fourth.half() > piece.fifth.half() ? &Piece::fourth : &Piece::fifth;
       Piece low = piece;
       Piece high = piece;
-      const bool across = piece.fourth.half() > piece.fifth.half();
-      (across ? low.fourth : low.fifth).high = across ? piece.fourth.middle() : piece.fifth.middle();
-      (across ? high.fourth : high.fifth).low = across ? piece.fourth.middle() : piece.fifth.middle();
+      (low.*longer).high = (high.*longer).low = (piece.*longer).middle();
       halves.insert(halves.end(), {low, high});
     }
     looked_at += pieces.size();

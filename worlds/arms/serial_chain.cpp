@@ -45,25 +45,12 @@ std::array<double, 2> twist_of(double alpha) {
   return exact[as_whole<std::size_t>(bounded_whole<std::int64_t>(nearest) & 3)];
 }
 
-/// The frame that moves along the chain.
-struct Cursor {
-  Vec3 p = Vec3::Zero();
-  Vec3 x = Vec3::UnitX();
-  Vec3 y = Vec3::UnitY();
-  Vec3 z = Vec3::UnitZ();
-
-  void turn(const portable::SineAndCosine& angle) {
-    const auto [sine, cosine] = angle;
-    const Vec3 turned = cosine * x + sine * y;
-    y = cosine * y - sine * x;
-    x = turned;
-  }
-  void twist(double cosine, double sine) {
-    const Vec3 turned = cosine * y + sine * z;
-    z = cosine * z - sine * y;
-    y = turned;
-  }
-};
+/// Turns two axes of a frame, the first towards the second.
+void turn_axes(Vec3& from, Vec3& to, double cosine, double sine) {
+  const Vec3 turned = cosine * from + sine * to;
+  to = cosine * to - sine * from;
+  from = turned;
+}
 
 // The arm of a Denavit-Hartenberg table as a model: its joints, a capsule between any two consecutive points of the
 // chain that are apart, the tool. And of any model the pairs of links that are no use to keep apart: nothing moves one
@@ -135,21 +122,24 @@ SerialChain::SerialChain(const DhTable& table) : table_(table), modified_(table.
 Eigen::Isometry3d SerialChain::tool_pose(const JointState& q) const { return frame(q, joint_count()) * table_.tool; }
 
 Eigen::Isometry3d SerialChain::frame(const JointState& q, std::size_t number) const {
-  Cursor at;
+  Vec3 place = Vec3::Zero();
+  Vec3 x = Vec3::UnitX();
+  Vec3 y = Vec3::UnitY();
+  Vec3 z = Vec3::UnitZ();
   const auto slide = [&](const Step& step) {
-    at.p += step.a * at.x;
-    at.twist(step.cos_alpha, step.sin_alpha);
+    place += step.a * x;
+    turn_axes(y, z, step.cos_alpha, step.sin_alpha);
   };
-  slide(base_);
-  if (modified_ && number == 0) at = {};
+  if (!modified_ || number > 0) slide(base_);
   for (std::size_t i = 0; i < number; ++i) {
-    at.turn(portable::sin_and_cos(q[i] + steps_[i].offset));
-    at.p += steps_[i].d * at.z;
+    const auto [sine, cosine] = portable::sin_and_cos(q[i] + steps_[i].offset);
+    turn_axes(x, y, cosine, sine);
+    place += steps_[i].d * z;
     if (!modified_ || i + 1 < number) slide(steps_[i]);
   }
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
-  frame.linear() << at.x, at.y, at.z;
-  frame.translation() = at.p;
+  frame.linear() << x, y, z;
+  frame.translation() = place;
   return frame;
 }
 
@@ -162,7 +152,7 @@ ArmModel model_of(const DhTable& table, double radius, bool self_collision, doub
   }
   ArmModel model;
   model.name = "arm";
-  for (std::size_t i = 0; i < std::max(most_chain_joints, table.joints.size()); ++i) {
+  for (std::size_t i = 0; i < most_chain_joints; ++i) {
     model.variables.push_back({.name = "joint " + std::to_string(i + 1), .low = chain.low(i), .high = chain.high(i)});
   }
   const auto add_link = [&](int frame, const Vec3& from, const Vec3& to) {
@@ -230,8 +220,14 @@ void leave_out_touching(ArmModel& model, const Execution& execution) {
     arm.place(q, posture);
     std::erase_if(suspects, [&](const LinkPair& pair) { return !touch(pair); });
   }
+  auto next = suspects.begin();  // they stand in the order of all pairs
+  std::erase_if(model.pairs, [&](const LinkPair& pair) {
+    const bool is_suspect = next != suspects.end() && *next == pair;
+    next += is_suspect ? 1 : 0;
+    return is_suspect;
+  });
   for (const LinkPair& pair : suspects) {
-    std::erase(model.pairs, pair);
+    execution.check();
     model.assumed.push_back(model.links[pair[0]].name + " and " + model.links[pair[1]].name +
                             " touch in every posture that was tried: not checked against each other");
   }

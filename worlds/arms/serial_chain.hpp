@@ -6,11 +6,16 @@
 // modified (Craig): frame i = frame i-1 * Rx(alpha) Tx(a) Rz(q + offset) Tz(d), joint i turns about z of frame i.
 // Both are the one sequence [Rx Tx] Rz Tz Rx Tx Rz Tz ..., and are held as that: only the places where the origins
 // stand differ. A joint costs a sine, a cosine and some 30 multiplications.
+//
+// And of one such arm, the Unimation Puma 560, its table and its inverse kinematics (puma560.cpp).
 #pragma once
 
 #include <Eigen/Geometry>
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <vector>
 
 #include "core/run/execution.hpp"
 #include "scenes/scene/scene.hpp"
@@ -64,5 +69,36 @@ ArmModel model_of(const DhTable& table, double radius, bool self_collision, doub
 /// touch in each of 1,000 states, which `assumed` tells. A pair is a suspect until the first state where it is apart:
 /// some ms in all. Throws InputError as ArmKinematics, Stopped.
 void leave_out_touching(ArmModel& model, const Execution& execution = {});
+
+/// classic: +-160, -45..225, -225..45, -110..170, +-100, +-266 degrees, as the toolboxes long had them.
+/// symmetric: +-160, +-110, +-135, +-266, +-100, +-266 degrees (Wang, Chen, IEEE Trans. Robotics Autom. 7(4), 1991), as
+/// they have them now.
+enum class PumaLimits : std::uint8_t { classic, symmetric };
+constexpr std::string_view name_of(PumaLimits limits) {
+  return limits == PumaLimits::classic ? "classic" : "symmetric";
+}
+
+/// The standard table; the tool stands `tool` metres along the last z axis.
+DhTable puma560_table(double tool = 0.0, PumaLimits limits = PumaLimits::classic);
+
+/// All joint angles within the limits that bring the tool's tip to `place`, with the wrist's three angles as given: the
+/// four branches of shoulder and elbow and their full turns. For an arm of puma560_table's shape (any lengths d3, d4,
+/// a2, a3, any limits, a tool along the last z axis). In a fixed order; empty: out of reach. Throws InputError for
+/// chains of another shape.
+std::vector<JointState> puma560_inverse_place(const SerialChain& chain, const Vec3& place,
+                                              const std::array<double, 3>& wrist);
+
+/// Is this a chain of that shape?
+bool has_puma560_shape(const SerialChain& chain);
+
+struct ToolPostures {
+  std::vector<JointState> states;  ///< within the limits, joint 6 as asked for, since the tool lies along its axis
+  bool none_is_left = false;       ///< proved, where there are none: the place is out of reach
+};
+
+/// Pieces are halved until there are `enough` states, none is left, or they are a ten-thousandth of a radian small or
+/// 200,000; each takes some microseconds. In a fixed order. Throws InputError as puma560_inverse_place, Stopped.
+ToolPostures tool_postures(const SerialChain& chain, const Vec3& place, double sixth, std::size_t enough,
+                           const Execution& execution);
 
 }  // namespace warren

@@ -22,7 +22,7 @@ double planning_reach(const CarOptions& options) {
 double resolution_of(const CarOptions& options) {
   constexpr double share = 1e-4;
   const double size = options.outline.empty() ? options.radius : outline_reach(options.outline);
-  return options.resolution.value_or(share * (size > 0.0 ? size : options.turning_radius));
+  return share * (size > 0.0 ? size : options.turning_radius);
 }
 
 /// Throws InputError for what is out of range.
@@ -30,7 +30,6 @@ const CarOptions& checked_car(const CarOptions& options, const Execution& execut
   if (!options.outline.empty()) check_body(options.outline, "robot", execution);
   checked_length("robot: turning radius", options.turning_radius, false);
   planning_reach(options);
-  checked_length("resolution", resolution_of(options), false);
   return options;
 }
 
@@ -42,11 +41,7 @@ CarBody::CarBody(const Scene& scene, const CarOptions& options, const Execution&
     : BodyAmongObstacles(scene, options.outline.empty() ? std::vector{Vec2{}} : options.outline,
                          planning_reach(checked_car(options, execution)), options.turning_radius, "car", execution),
       turning_radius_(options.turning_radius),
-      resolution_(resolution_of(options)) {
-  for (int steer = -2; steer <= 2; ++steer) {
-    pace_[as_whole<std::size_t>(steer + 2)] = pace_of(static_cast<Steer>(steer), options.outline, turning_radius_);
-  }
-}
+      resolution_(resolution_of(options)) {}
 
 bool CarBody::confines(const Box& way) const {
   constexpr double rounding = 1e-11;
@@ -57,19 +52,12 @@ bool CarBody::confines(const Box& way) const {
 
 MotionVerdict CarBody::judge(const SteeringCurve& curve, Query& query) const {
   if (!confines(curve.box())) return MotionVerdict::blocked;
-  const CurveTravel travelled(curve, [this](Steer steer) { return pace(steer); });
+  const CurveTravel travelled(curve, outline());
   const double length = curve.length();
   return certified_motion([&](double t, double enough) { return clearance(curve.at(t * length), enough, query); },
                           [&](double t, double u) { return travelled(u * length) - travelled(t * length); },
                           resolution_);
 }
-
-struct PricedCar::Recipe {
-  SteeringWord word;
-  double price = 0.0;
-  std::int8_t first_gear = 0;
-  std::int8_t last_gear = 0;
-};
 
 /// Pieces of no length have no gear, as SteeringCurve leaves them out; nor have those that only make up for `off`, by
 /// which rounding moves the ends: far from the origin they were changes of gear that nobody drives.
@@ -86,10 +74,9 @@ PricedCar::Recipe PricedCar::priced(const SteeringWord& word, double off) const 
   return recipe;
 }
 
-PricedCurve PricedCar::shortest(const State& a, const State& b) const {
+PricedCar::Recipe PricedCar::shortest(const State& a, const State& b) const {
   const double radius = car_->turning_radius();
-  const Recipe recipe = priced(ReedsSheppCurve::shortest(a, b, radius), off_by_rounding(a, b, radius));
-  return {{a, b, recipe.word, radius}, recipe.price, recipe.first_gear, recipe.last_gear};
+  return priced(ReedsSheppCurve::shortest(a, b, radius), off_by_rounding(a, b, radius));
 }
 
 std::vector<PricedCurve> PricedCar::ways(const State& a, const State& b, double most) const {
@@ -154,7 +141,7 @@ double PricedCar::price(std::span<const State> path, int gear_before, int gear_a
     if (next != 0) gear = next;
   };
   for (std::size_t i = 1; i < path.size(); ++i) {
-    const Way way = shortest(path[i - 1], path[i]);
+    const Recipe way = shortest(path[i - 1], path[i]);
     change_to(way.first_gear);
     if (way.last_gear != 0) gear = way.last_gear;
     sum += way.price;

@@ -37,11 +37,10 @@
 namespace warren {
 
 struct CarOptions {
-  double turning_radius = 1.0;            ///< of the reference point; > 0
-  double radius = 0.0;                    ///< of the disc; >= 0; unused where there is an outline
-  std::vector<Vec2> outline = {};         ///< the body as a polygon; empty: the disc
-  double clearance = 0.0;                 ///< room around the body; finite, >= 0; 0: touching is blocked
-  std::optional<double> resolution = {};  ///< motions that come so near may be refused; > 0; none: body size / 10,000
+  double turning_radius = 1.0;     ///< of the reference point; > 0
+  double radius = 0.0;             ///< of the disc; >= 0; unused where there is an outline
+  std::vector<Vec2> outline = {};  ///< the body as a polygon; empty: the disc
+  double clearance = 0.0;          ///< room around the body; finite, >= 0; 0: touching is blocked
 };
 
 /// The body among the obstacles, whatever the steering; its reach is the clearance, of discs their radius too, and
@@ -58,15 +57,12 @@ class CarBody : public BodyAmongObstacles {
   }
 
   double turning_radius() const { return turning_radius_; }
-  double resolution() const { return resolution_; }
-  /// As pace_of(), computed once.
-  double pace(Steer steer) const { return pace_[as_whole<std::size_t>(as_whole<int>(steer) + 2)]; }
+  double resolution() const { return resolution_; }  ///< motions that come so near may be refused
 
  private:
   bool confines(const Box& way) const;
 
   double turning_radius_;
-  std::array<double, 5> pace_{};  // by Steer
   double resolution_;
 };
 
@@ -154,9 +150,14 @@ class PricedCar {
   double price(std::span<const State> path, int gear_before = 0, int gear_after = 0) const;
 
  private:
-  Way shortest(const State& a, const State& b) const;
   /// What of a way a word says.
-  struct Recipe;
+  struct Recipe {
+    SteeringWord word;
+    double price = 0.0;
+    std::int8_t first_gear = 0;
+    std::int8_t last_gear = 0;
+  };
+  Recipe shortest(const State& a, const State& b) const;
   Recipe priced(const SteeringWord& word, double off) const;
 
   const CarBody* car_;

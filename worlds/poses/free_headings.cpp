@@ -119,7 +119,7 @@ class BlockedHeadings {
 
 /// Calls f with the borders between free and blocked cells near a place of the map, as segments of the world.
 template <class F>
-void for_each_border_near(const OccupancyMap& map, Vec2 place, double reach, const F& f) {
+void for_each_border_near(const OccupancyMap& map, Vec2 place, double reach, const Execution& execution, const F& f) {
   const Vec2 at = map_point(map, place);
   const double cells = reach / map.cell + 2.0;
   const auto within = [](double x, std::uint32_t size) {
@@ -133,6 +133,7 @@ void for_each_border_near(const OccupancyMap& map, Vec2 place, double reach, con
               world_point(map, {static_cast<double>(to_x), static_cast<double>(to_y)})});
   };
   for (std::int64_t y = within(at.y - cells, map.height()); y <= within(at.y + cells, map.height()); ++y) {
+    execution.check();
     for (std::int64_t x = within(at.x - cells, map.width()); x <= within(at.x + cells, map.width()); ++x) {
       if (is_blocked(x, y) != is_blocked(x + 1, y)) border(x + 1, y, x + 1, y + 1);
       if (is_blocked(x, y) != is_blocked(x, y + 1)) border(x, y + 1, x + 1, y + 1);
@@ -147,7 +148,7 @@ std::vector<HeadingInterval> free_headings(const Scene& scene, std::span<const V
   BlockedHeadings blocked(outline, room, execution);
   const auto add = [&](const Segment& s) { blocked.add({s.a - place, s.b - place}); };
   if (scene.map) {
-    for_each_border_near(*scene.map, place, blocked.reach(), add);
+    for_each_border_near(*scene.map, place, blocked.reach(), execution, add);
     return std::move(blocked).free();
   }
   for (std::size_t i = 0; i < scene.walls.size(); ++i) add(scene.walls.segment(i));

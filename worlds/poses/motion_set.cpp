@@ -21,12 +21,6 @@ namespace {
 
 using Vector = std::array<std::int32_t, 2>;
 
-/// Of the first eighth of a full turn, the other end left out.
-std::vector<Vector> first_eighth(std::uint32_t headings) {
-  if (headings == 16) return {{1, 0}, {2, 1}};
-  return {{1, 0}, {3, 1}, {2, 1}, {3, 2}};
-}
-
 Vector turned(Vector v, std::uint32_t quarters) {
   for (std::uint32_t i = 0; i < quarters; ++i) v = {-v[1], v[0]};
   return v;
@@ -34,13 +28,11 @@ Vector turned(Vector v, std::uint32_t quarters) {
 
 /// All, by their angle.
 std::vector<Vector> heading_vectors(std::uint32_t headings) {
-  std::vector<Vector> quarter = first_eighth(headings);
-  const std::vector<Vector> eighth = quarter;
-  quarter.push_back({1, 1});
-  for (auto v = eighth.rbegin(); v + 1 != eighth.rend(); ++v) quarter.push_back({(*v)[1], (*v)[0]});
+  const std::vector<Vector> sixteen{{1, 0}, {2, 1}, {1, 1}, {1, 2}};
+  const std::vector<Vector> thirty_two{{1, 0}, {3, 1}, {2, 1}, {3, 2}, {1, 1}, {2, 3}, {1, 2}, {1, 3}};
   std::vector<Vector> all;
   for (std::uint32_t q = 0; q < 4; ++q) {
-    for (const Vector& v : quarter) all.push_back(turned(v, q));
+    for (const Vector& v : headings == 16 ? sixteen : thirty_two) all.push_back(turned(v, q));
   }
   return all;
 }
@@ -51,71 +43,57 @@ std::int64_t cross_of(const Vector& a, const Vector& b) {
   return std::int64_t{a[0]} * b[1] - std::int64_t{a[1]} * b[0];
 }
 
+/// The way back: of a turn on the spot the other one.
 SteeringWord reversed(const SteeringWord& word) {
   SteeringWord back;
-  for (std::size_t i = word.count; i-- > 0;) back.add(word.pieces[i].steer, -word.pieces[i].length);
+  for (std::size_t i = word.count; i-- > 0;) {
+    const auto& [steer, length] = word.pieces[i];
+    is_on_spot(steer) ? back.add(Steer::right_on_spot, length) : back.add(steer, -length);
+  }
   return back;
 }
 
 constexpr double resolution = 0x1p-4;  // cells
 
-/// A body along one shape, in cells.
-class ShapeSweep {
- public:
-  ShapeSweep(const MotionSet& motions, const MotionShape& shape, std::span<const Vec2> outline, double reach)
-      : outline_(outline),
-        reach_(reach),
-        curve_({0.0, 0.0, motions.heading_rad(shape.from)},
-               {1.0 * shape.dx, 1.0 * shape.dy, motions.heading_rad(shape.to)}, shape.word, motions.turning_radius()),
-        radius_(outline_reach(outline)),
-        box_(box_around(outline)),
-        travelled_(curve_, [this](Steer steer) { return pace_of(steer, outline_, curve_.turning_radius()); }) {}
-
-  /// Those that may be touched, row by row.
-  std::vector<Vector> cells(const Execution& execution) const {
-    std::vector<Vector> touched;
-    const Box way = curve_.box();
-    const Box wide = way.grown(radius_ + reach_ + 1.0);
-    const auto whole = [](double x) { return bounded_whole<std::int32_t>(x, least_whole<std::int32_t>); };
-    for (std::int32_t y = whole(std::floor(wide.min.y)); y <= whole(std::ceil(wide.max.y)); ++y) {
-      execution.check();
-      for (std::int32_t x = whole(std::floor(wide.min.x)); x <= whole(std::ceil(wide.max.x)); ++x) {
-        if (!is_clear_of({1.0 * x, 1.0 * y})) touched.push_back({x, y});
-      }
-    }
-    return touched;
-  }
-
- private:
-  Se2 pose(double t) const { return curve_.at(t * curve_.length()); }
-  /// A lower bound of the distance between body and square, less the reach; exact where it is small.
-  double clearance(const Se2& pose, Vec2 middle, double enough) const {
+/// The cells that a body may touch along one shape, row by row; all in cells.
+std::vector<Vector> swept_cells(const MotionSet& motions, const MotionShape& shape, std::span<const Vec2> outline,
+                                double reach, const Execution& execution) {
+  const SteeringCurve curve({0.0, 0.0, motions.heading_rad(shape.from)},
+                            {1.0 * shape.dx, 1.0 * shape.dy, motions.heading_rad(shape.to)}, shape.word,
+                            motions.turning_radius());
+  const CurveTravel travelled(curve, outline);
+  const double length = curve.length();
+  const Box box = box_around(outline);
+  // A lower bound of the distance between body and square, less the reach; exact where it is small.
+  const auto clearance = [&](const Se2& pose, Vec2 middle, double enough) {
     constexpr double half_diagonal = 0.5 * std::numbers::sqrt2;
-    const Vec2 seen = Rotation(-pose.theta)(middle - pose.position());
-    const double aside = std::max({box_.min.x - seen.x, seen.x - box_.max.x, 0.0});
-    const double above = std::max({box_.min.y - seen.y, seen.y - box_.max.y, 0.0});
-    const double at_least = std::sqrt(aside * aside + above * above) - half_diagonal - reach_;
-    if (at_least > enough) return at_least;
     const Rotation turned(-pose.theta);
+    const Vec2 seen = turned(middle - pose.position());
+    const double aside = std::max({box.min.x - seen.x, seen.x - box.max.x, 0.0});
+    const double above = std::max({box.min.y - seen.y, seen.y - box.max.y, 0.0});
+    const double at_least = std::sqrt(aside * aside + above * above) - half_diagonal - reach;
+    if (at_least > enough) return at_least;
     std::array<Vec2, 4> square;
     constexpr std::array<Vec2, 4> corners{{{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}};
     for (std::size_t i = 0; i < 4; ++i) square[i] = seen + turned(corners[i]);
-    return distance(outline_, square) - reach_;
-  }
-  bool is_clear_of(Vec2 middle) const {
-    const double length = curve_.length();
-    return certified_motion([&](double t, double enough) { return clearance(pose(t), middle, enough); },
-                            [&](double t, double u) { return travelled_(u * length) - travelled_(t * length); },
+    return distance(outline, square) - reach;
+  };
+  const auto is_clear_of = [&](Vec2 middle) {
+    return certified_motion([&](double t, double enough) { return clearance(curve.at(t * length), middle, enough); },
+                            [&](double t, double u) { return travelled(u * length) - travelled(t * length); },
                             resolution) == MotionVerdict::free;
+  };
+  std::vector<Vector> touched;
+  const Box wide = curve.box().grown(outline_reach(outline) + reach + 1.0);
+  const auto whole = [](double x) { return bounded_whole<std::int32_t>(x, least_whole<std::int32_t>); };
+  for (std::int32_t y = whole(std::floor(wide.min.y)); y <= whole(std::ceil(wide.max.y)); ++y) {
+    execution.check();
+    for (std::int32_t x = whole(std::floor(wide.min.x)); x <= whole(std::ceil(wide.max.x)); ++x) {
+      if (!is_clear_of({1.0 * x, 1.0 * y})) touched.push_back({x, y});
+    }
   }
-
-  std::span<const Vec2> outline_;
-  double reach_;
-  SteeringCurve curve_;
-  double radius_;
-  Box box_;  // of the outline
-  CurveTravel travelled_;
-};
+  return touched;
+}
 
 }  // namespace
 
@@ -132,13 +110,10 @@ MotionSet::MotionSet(const MotionSetOptions& options, const Execution& execution
 }
 
 std::uint32_t MotionSet::nearest_heading(double radians) const {
-  std::uint32_t nearest = 0;
-  for (std::uint32_t k = 1; k < headings(); ++k) {
-    if (std::abs(warren::turn_between(radians, radians_[k])) <
-        std::abs(warren::turn_between(radians, radians_[nearest])))
-      nearest = k;
-  }
-  return nearest;
+  const auto off = [&](double heading) { return std::abs(turn_between(radians, heading)); };
+  const auto nearest =
+      std::min_element(radians_.begin(), radians_.end(), [&](double a, double b) { return off(a) < off(b); });
+  return as_whole<std::uint32_t>(nearest - radians_.begin());
 }
 
 std::uint64_t MotionSet::cost_of(const SteeringWord& word) const {
@@ -210,21 +185,15 @@ void MotionSet::add_turns(std::uint32_t from, std::uint32_t to) {
 /// In all four quarters, backwards too.
 void MotionSet::add_motions(std::uint32_t number) {
   const MotionShape& shape = shapes_[number];
+  const std::int8_t gear = is_on_spot(shape.word.pieces[0].steer) ? 0 : 1;
+  const SteeringWord back = reversed(shape.word);
   for (std::uint32_t q = 0; q < 4; ++q) {
     const std::uint32_t from = (shape.from + q * headings() / 4) % headings();
     const std::uint32_t to = (shape.to + q * headings() / 4) % headings();
     const Vector d = turned({shape.dx, shape.dy}, q);
-    if (is_on_spot(shape.word.pieces[0].steer)) {
-      SteeringWord back;
-      back.add(Steer::right_on_spot, shape.word.length);
-      motions_[from].push_back({0, 0, to, 0, cost_of(shape.word), shape.word, number, q});
-      motions_[to].push_back({0, 0, from, 0, cost_of(back), back, number, q});
-      continue;
-    }
-    motions_[from].push_back({d[0], d[1], to, 1, cost_of(shape.word), shape.word, number, q});
-    if (!options_.reverses) continue;
-    const SteeringWord back = reversed(shape.word);
-    motions_[to].push_back({-d[0], -d[1], from, -1, cost_of(back), back, number, q});
+    motions_[from].push_back({d[0], d[1], to, gear, cost_of(shape.word), shape.word, number, q});
+    if (gear != 0 && !options_.reverses) continue;
+    motions_[to].push_back({-d[0], -d[1], from, as_whole<std::int8_t>(-gear), cost_of(back), back, number, q});
   }
 }
 
@@ -287,7 +256,7 @@ SweptStamps::SweptStamps(const MotionSet& motions, std::span<const Vec2> outline
                          const Execution& execution) {
   const std::span<const MotionShape> shapes = motions.shapes();
   auto touched = parts_of_chunks(shapes.size(), 1, execution.quiet(), [&](Range r) {
-    return ShapeSweep(motions, shapes[r.first], outline, reach).cells(execution);
+    return swept_cells(motions, shapes[r.first], outline, reach, execution);
   });
   for (std::vector<Vector>& cells : touched) {
     for (std::uint32_t quarters = 0; quarters < 4; ++quarters) {

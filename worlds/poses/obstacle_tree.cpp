@@ -9,7 +9,7 @@
 
 #include "core/base/whole.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
-#include "worlds/rasters/convex_pieces.hpp"
+#include "worlds/rasters/lattice_polygons.hpp"
 
 namespace warren {
 namespace {
@@ -45,10 +45,7 @@ bool encloses(std::span<const Vec2> polygon, Vec2 p) {
   return inside;
 }
 
-bool within(const Box& inner, const Box& outer) {
-  return outer.min.x <= inner.min.x && inner.max.x <= outer.max.x && outer.min.y <= inner.min.y &&
-         inner.max.y <= outer.max.y;
-}
+bool within(const Box& inner, const Box& outer) { return outer.contains(inner.min) && outer.contains(inner.max); }
 
 /// How far the body's box is inside the bounds; negative outside.
 double room_in(const Box& bounds, const Box& body) {
@@ -56,30 +53,26 @@ double room_in(const Box& bounds, const Box& body) {
       {body.min.x - bounds.min.x, bounds.max.x - body.max.x, body.min.y - bounds.min.y, bounds.max.y - body.max.y});
 }
 
-/// Which way the corners go round.
-enum class Turning : std::uint8_t { left, right, neither };
-
-/// Do the corners all turn the same way or go straight on, once around in all, with sides that are neither without
-/// length nor too many?
-Turning turning_of(std::span<const Vec2> corners) {
-  if (corners.size() > most_sides) return Turning::neither;
+/// Which way the corners go round, 1 to the left, -1 to the right, where all turn the same way or go straight on, once
+/// around in all, with sides that are neither without length nor too many; else 0.
+int turning_of(std::span<const Vec2> corners) {
+  if (corners.size() > most_sides) return 0;
   double least = 0.0;
   double most = 0.0;
   int rises = 0;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Vec2 b = corners[(i + 1) % corners.size()];
     const Vec2 along = b - corners[i];
-    if (!(inverse_square(along) > 0.0)) return Turning::neither;
+    if (!(inverse_square(along) > 0.0)) return 0;
     const Vec2 next = corners[(i + 2) % corners.size()] - b;
     const double turn = cross(along, next);
-    if (turn == 0.0 && !(dot(along, next) > 0.0)) return Turning::neither;  // it turns back
+    if (turn == 0.0 && !(dot(along, next) > 0.0)) return 0;  // it turns back
     rises += along.y <= 0.0 && next.y > 0.0 ? 1 : 0;
     least = std::min(least, turn);
     most = std::max(most, turn);
   }
-  if ((least == 0.0) == (most == 0.0)) return Turning::neither;
-  const bool left = most > 0.0;
-  return rises == 1 ? (left ? Turning::left : Turning::right) : Turning::neither;
+  if ((least == 0.0) == (most == 0.0) || rises != 1) return 0;
+  return most > 0.0 ? 1 : -1;
 }
 
 /// Does the whole body stay more than `reach` before the line through p, whose normal is `outward`, for so long?
@@ -133,7 +126,7 @@ ObstacleTree::ObstacleTree(const Scene& scene, double reach, const Execution& ex
   std::vector<std::span<const Vec2>> others;
   for (std::size_t i = 0; i < scene.walls.size(); ++i) sides.push_back(scene.walls.segment(i));
   for (const ScenePolygon& polygon : scene.polygons) {
-    if (turning_of(polygon.corners) != Turning::neither) {
+    if (turning_of(polygon.corners) != 0) {
       convex.emplace_back(polygon.corners);
       continue;
     }
@@ -149,7 +142,7 @@ ObstacleTree::ObstacleTree(const Scene& scene, double reach, const Execution& ex
   for (const std::uint32_t id : convex_tree_.order()) {
     const std::span<const Vec2> corners = convex[id];
     const auto first = as_whole<std::uint32_t>(convex_sides_.size());
-    const bool left = turning_of(corners) == Turning::left;
+    const bool left = turning_of(corners) > 0;
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const Side side = side_between(corners[i], corners[(i + 1) % corners.size()]);
       const Vec2 right = (1.0 / norm(side.along)) * Vec2{side.along.y, -side.along.x};

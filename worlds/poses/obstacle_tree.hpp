@@ -73,7 +73,7 @@ class ObstacleTree {
   /// Convex obstacles, and sides of the others.
   std::size_t piece_count() const { return convex_.size() + sides_.size(); }
   /// Takes the bits of places away at which a convex body, mirrored at its reference point, would come nearer than
-  /// `reach` to an obstacle (worlds/rasters/convex_pieces.hpp); of polygons that aren't convex, to a side.
+  /// `reach` to an obstacle (worlds/rasters/lattice_polygons.hpp); of polygons that aren't convex, to a side.
   void take_blocked_places(std::span<const Vec2> mirrored_body, double reach, PlaceGrid& free) const;
 
   const std::optional<Box>& bounds() const { return bounds_; }

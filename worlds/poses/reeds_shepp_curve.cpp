@@ -32,22 +32,11 @@ namespace {
 
 constexpr double quarter = 0.5 * std::numbers::pi;
 
-enum class WordShape : std::uint8_t { lsl, lsr, lrl, lrlr_out, lrlr_in, lrsl, lrsr, lrslr };
-
 /// How the goal was changed before the word was solved for it.
 struct Change {
   bool mirrored = false;
   bool reversed = false;   // in time: forwards is backwards
   bool from_goal = false;  // the way back
-};
-
-struct Solved {
-  double length = std::numeric_limits<double>::infinity();
-  WordShape shape = WordShape::lsl;
-  Change change;
-  double first = 0.0;
-  double middle = 0.0;
-  double last = 0.0;
 };
 
 double root(double square) { return std::sqrt(std::max(square, 0.0)); }
@@ -68,43 +57,13 @@ struct Polar {
   void reverse() { angle = std::copysign(std::numbers::pi, angle) - angle; }
 };
 
-/// The pieces of the shape in the frame in which it was solved.
-SteeringWord plain_word(const Solved& w) {
-  using enum Steer;
-  const auto word = [&w](std::initializer_list<SteeringPiece> behind_the_first) {
-    SteeringWord all;
-    all.add(left, w.first);
-    for (const SteeringPiece& piece : behind_the_first) all.add(piece.steer, piece.length);
-    return all;
-  };
-  switch (w.shape) {
-    case WordShape::lsl:
-      return word({{straight, w.middle}, {left, w.last}});
-    case WordShape::lsr:
-      return word({{straight, w.middle}, {right, w.last}});
-    case WordShape::lrl:
-      return word({{right, w.middle}, {left, w.last}});
-    case WordShape::lrlr_out:
-      return word({{right, w.middle}, {left, -w.middle}, {right, w.last}});
-    case WordShape::lrlr_in:
-      return word({{right, w.middle}, {left, w.middle}, {right, w.last}});
-    case WordShape::lrsl:
-      return word({{right, -quarter}, {straight, w.middle}, {left, w.last}});
-    case WordShape::lrsr:
-      return word({{right, -quarter}, {straight, w.middle}, {right, w.last}});
-    case WordShape::lrslr:
-      return word({{right, -quarter}, {straight, w.middle}, {left, -quarter}, {right, w.last}});
-  }
-  return {};
-}
-
-SteeringWord word_of(const Solved& w) {
-  const SteeringWord plain = plain_word(w);
+/// pieces: in the frame in which they were found.
+SteeringWord word_of(const Change& change, std::span<const SteeringPiece> pieces) {
   SteeringWord word;
-  for (std::size_t i = 0; i < plain.count; ++i) {
-    SteeringPiece piece = plain.pieces[w.change.from_goal ? plain.count - 1 - i : i];
-    if (w.change.mirrored) piece.steer = static_cast<Steer>(-as_whole<int>(piece.steer));
-    word.add(piece.steer, w.change.reversed ? -piece.length : piece.length);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const SteeringPiece& piece = pieces[change.from_goal ? pieces.size() - 1 - i : i];
+    const Steer steer = change.mirrored ? static_cast<Steer>(-as_whole<int>(piece.steer)) : piece.steer;
+    word.add(steer, change.reversed ? -piece.length : piece.length);
   }
   return word;
 }
@@ -115,18 +74,22 @@ class Shortest {
  public:
   Shortest(const Se2& goal, double off, bool sure) : goal_(goal), off_(off), sure_(sure) {}
   /// Is it worth to go on with a word that has at least this length?
-  bool worth(double at_least) const { return at_least < best_.length - (as_long + off_); }
-  void take(const Solved& word) {
-    if (worth(word.length) && (!sure_ || ends_at(word_of(word), goal_, off_))) best_ = word;
+  bool worth(double at_least) const { return at_least < length_ - (as_long + off_); }
+  /// length: of the word, up to rounding.
+  void take(double length, const SteeringWord& word) {
+    if (sure_ && !ends_at(word, goal_, off_)) return;
+    length_ = length;
+    best_ = word;
   }
-  const Solved& best() const { return best_; }
+  const SteeringWord& best() const { return best_; }  ///< of no piece: none
 
  private:
   static constexpr double as_long = 1e-12;
   Se2 goal_;
   double off_;
   bool sure_;
-  Solved best_;
+  double length_ = std::numeric_limits<double>::infinity();
+  SteeringWord best_;
 };
 
 /// All words up to a length.
@@ -135,8 +98,8 @@ class All {
   All(double longest, const std::function<void(const SteeringWord&)>& visit) : longest_(longest), visit_(visit) {}
   /// Bounds are sums of other roundings than lengths.
   bool worth(double at_least) const { return at_least <= longest_ + 1e-12 * longest_; }
-  void take(const Solved& word) {
-    if (word.length <= longest_) visit_(word_of(word));
+  void take(double length, const SteeringWord& word) {
+    if (length <= longest_) visit_(word);
   }
 
  private:
@@ -147,6 +110,8 @@ class All {
 /// Hands the words to a goal, as far as they are worth it, to the taker.
 template <class Taker>
 class Enumeration {
+  using enum Steer;
+
  public:
   /// off: what rounding put the goal off by
   Enumeration(const Se2& goal, double off, Taker& taker)
@@ -194,23 +159,25 @@ class Enumeration {
   double tangent(double apart) const { return apart <= 2.0 + same_ ? 0.0 : root(apart * apart - 4.0); }
   /// The arc between circles that touch is none, as the tangent is.
   double arc_of(double cosine) const { return cosine >= 1.0 - 0.25 * same_ ? 0.0 : portable::acos(cosine); }
-  void take(const Frame& frame, WordShape shape, double first, double middle, double last, double fixed) {
-    taker_.take({fixed + std::abs(first) + std::abs(last), shape, frame.change, first, middle, last});
+  /// between: what all pieces but the first and the last are long.
+  void take(const Frame& frame, double between, std::initializer_list<SteeringPiece> pieces) {
+    const double length = between + std::abs(pieces.begin()->length) + std::abs(std::prev(pieces.end())->length);
+    if (worth(length)) taker_.take(length, word_of(frame.change, {pieces.begin(), pieces.end()}));
   }
   void solve_straight(const Frame& f) {
     // What rounding alone turns, or drives between two circles that are one, is no piece.
-    if (f.to_left.size <= 1e-9 + 4.0 * off_) take(f, WordShape::lsl, 0.0, 0.0, f.phi, 0.0);
-    if (worth(f.to_left.size + f.turn())) {
+    if (f.to_left.size <= 1e-9 + 4.0 * off_) take(f, 0.0, {{left, 0.0}, {straight, 0.0}, {left, f.phi}});
+    const double across = f.to_left.size;
+    if (worth(across + f.turn())) {
       const double first = f.to_left.angle;
-      if (f.to_left.size * std::abs(first) <= 4.0 * off_)
-        take(f, WordShape::lsl, 0.0, f.to_left.size, f.phi, f.to_left.size);
-      take(f, WordShape::lsl, first, f.to_left.size, wrapped(f.phi - first), f.to_left.size);
+      if (across * std::abs(first) <= 4.0 * off_) take(f, across, {{left, 0.0}, {straight, across}, {left, f.phi}});
+      take(f, across, {{left, first}, {straight, across}, {left, wrapped(f.phi - first)}});
     }
     if (f.to_right.size >= 2.0 - touching_) {
-      const double straight = tangent(f.to_right.size);
-      if (worth(straight + f.turn())) {
-        const double first = wrapped(f.to_right.angle + portable::atan2(2.0, straight));
-        take(f, WordShape::lsr, first, straight, wrapped(first - f.phi), straight);
+      const double way = tangent(f.to_right.size);
+      if (worth(way + f.turn())) {
+        const double first = wrapped(f.to_right.angle + portable::atan2(2.0, way));
+        take(f, way, {{left, first}, {straight, way}, {right, wrapped(first - f.phi)}});
       }
     }
   }
@@ -219,7 +186,7 @@ class Enumeration {
       const double arc = 2.0 * portable::asin(std::min(0.25 * f.to_left.size, 1.0));
       if (worth(std::max(arc, f.turn()))) {
         const double first = wrapped(f.to_left.angle - 0.5 * arc + std::numbers::pi);
-        take(f, WordShape::lrl, first, -arc, wrapped(f.phi - first - arc), arc);
+        take(f, arc, {{left, first}, {right, -arc}, {left, wrapped(f.phi - first - arc)}});
       }
     }
     solve_four_arcs(f);
@@ -232,7 +199,8 @@ class Enumeration {
       const double arc = arc_of(out_cosine);
       if (worth(2.0 * arc + f.turn(-2.0 * arc))) {
         const double first = wrapped(f.to_right.angle + arc + quarter);
-        take(f, WordShape::lrlr_out, first, arc, wrapped(first - 2.0 * arc - f.phi), 2.0 * arc);
+        const double last = wrapped(first - 2.0 * arc - f.phi);
+        take(f, 2.0 * arc, {{left, first}, {right, arc}, {left, -arc}, {right, last}});
       }
     }
     const double in_cosine = (20.0 - f.to_right.size * f.to_right.size) / 16.0;
@@ -240,32 +208,38 @@ class Enumeration {
       const double arc = arc_of(in_cosine);
       if (worth(2.0 * arc + f.turn())) {
         const double first = wrapped(f.to_right.angle + quarter + portable::atan2(portable::sin(arc), 2.0 - in_cosine));
-        take(f, WordShape::lrlr_in, first, -arc, wrapped(first - f.phi), 2.0 * arc);
+        take(f, 2.0 * arc, {{left, first}, {right, -arc}, {left, -arc}, {right, wrapped(first - f.phi)}});
       }
     }
   }
   void solve_quarter(const Frame& f) {
     if (f.to_left.size >= 2.0 - touching_) {
       const double across = root(f.to_left.size * f.to_left.size - 4.0);
-      const double straight = 2.0 - across;
-      if (worth(quarter + std::abs(straight) + f.turn(quarter))) {
+      const double way = 2.0 - across;
+      const double between = quarter + std::abs(way);
+      if (worth(between + f.turn(quarter))) {
         const double first = wrapped(f.to_left.angle + portable::atan2(across, -2.0));
-        take(f, WordShape::lrsl, first, straight, wrapped(f.phi - first - quarter), quarter + std::abs(straight));
+        const double last = wrapped(f.phi - first - quarter);
+        take(f, between, {{left, first}, {right, -quarter}, {straight, way}, {left, last}});
       }
     }
-    const double straight = 2.0 - f.to_right.size;
-    if (worth(quarter + std::abs(straight) + f.turn(quarter))) {
+    const double way = 2.0 - f.to_right.size;
+    const double between = quarter + std::abs(way);
+    if (worth(between + f.turn(quarter))) {
       const double first = wrapped(f.to_right.angle + quarter);
-      take(f, WordShape::lrsr, first, straight, wrapped(first + quarter - f.phi), quarter + std::abs(straight));
+      const double last = wrapped(first + quarter - f.phi);
+      take(f, between, {{left, first}, {right, -quarter}, {straight, way}, {right, last}});
     }
   }
   void solve_two_quarters(const Frame& f) {
     if (f.to_right.size < 2.0 - touching_) return;
     const double across = root(f.to_right.size * f.to_right.size - 4.0);
-    const double straight = 4.0 - across;
-    if (!worth(2.0 * quarter + std::abs(straight) + f.turn())) return;
+    const double way = 4.0 - across;
+    const double between = 2.0 * quarter + std::abs(way);
+    if (!worth(between + f.turn())) return;
     const double first = wrapped(f.to_right.angle + portable::atan2(across, -2.0));
-    take(f, WordShape::lrslr, first, straight, wrapped(first - f.phi), 2.0 * quarter + std::abs(straight));
+    const double last = wrapped(first - f.phi);
+    take(f, between, {{left, first}, {right, -quarter}, {straight, way}, {left, -quarter}, {right, last}});
   }
 
   Taker& taker_;
@@ -292,11 +266,10 @@ SteeringWord shortest_onwards(const Se2& a, const Se2& b, double turning_radius)
   const double off = off_by_rounding(a, b, turning_radius);
   Shortest any(goal, off, false);
   Enumeration<Shortest>(goal, off, any);
-  const SteeringWord word = word_of(any.best());
-  if (ends_at(word, goal, off)) return word;
+  if (ends_at(any.best(), goal, off)) return any.best();
   Shortest sure(goal, off, true);
   Enumeration<Shortest>(goal, off, sure);
-  return std::isfinite(sure.best().length) ? word_of(sure.best()) : word;
+  return sure.best().count > 0 ? sure.best() : any.best();
 }
 
 }  // namespace

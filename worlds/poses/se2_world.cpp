@@ -4,28 +4,23 @@
 #include <algorithm>
 
 #include "scenes/scene/plane_obstacles.hpp"
-#include "worlds/rasters/convex_pieces.hpp"
+#include "worlds/rasters/lattice_polygons.hpp"
 
 namespace warren {
 namespace {
 
 /// What planning keeps around the body. Throws InputError for what is out of range.
-double checked_reach(std::span<const Vec2> outline, const Se2Options& options, const Execution& execution) {
+double checked_reach(std::span<const Vec2> outline, double clearance, const Execution& execution) {
   check_body(outline, "robot", execution);
-  const double radius = checked_length("robot: radius", outline_reach(outline), false);
-  checked_length("angle weight", options.angle_weight.value_or(radius), false);
-  checked_length("resolution", options.resolution.value_or(1e-4 * radius), false);
-  return checked_clearance(options.clearance) * (1.0 + 1e-9);
+  checked_length("robot: radius", outline_reach(outline), false);
+  return checked_clearance(clearance) * (1.0 + 1e-9);
 }
 
 }  // namespace
 
-Se2World::Se2World(const Scene& scene, std::span<const Vec2> outline, const Se2Options& options,
-                   const Execution& execution)
-    : BodyAmongObstacles(scene, outline, checked_reach(outline, options, execution), 0.0, "robot", execution),
-      radius_(outline_reach(outline)),
-      angle_weight_(options.angle_weight.value_or(radius_)),
-      resolution_(options.resolution.value_or(1e-4 * radius_)) {
+Se2World::Se2World(const Scene& scene, std::span<const Vec2> outline, double clearance, const Execution& execution)
+    : BodyAmongObstacles(scene, outline, checked_reach(outline, clearance, execution), 0.0, "robot", execution),
+      radius_(outline_reach(outline)) {
   if (!scene.map) return;
   const DistanceField field(scene.map->blocked, CellDistance::squares, true, execution);
   corridors_.emplace(*scene.map, field, reach() / scene.map->cell, execution);
@@ -59,7 +54,7 @@ MotionVerdict Se2World::judge_motion(const State& a, const State& b, Query& quer
   Footprint& body = query.footprint;
   const std::span<const Vec2> outline = this->outline();
   for (std::size_t i = 0; i < outline.size(); ++i) body.bends[i] = 0.5 * turn * turn * norm(outline[i]);
-  const double finest = std::max(whole > 0.0 ? resolution_ / whole : 1.0, OpenPiece::finest);
+  const double finest = std::max(whole > 0.0 ? resolution() / whole : 1.0, OpenPiece::finest);
   const auto look = [&](const OpenPiece& piece, bool& split) {
     const Vec2 position = a.position() + piece.middle * way;
     const Rotation turned(a.theta + piece.middle * turn);

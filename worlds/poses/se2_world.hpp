@@ -6,10 +6,10 @@
 // stays between the two. Of the second only what comes nearer counts: a corner c that turns by w a unit of time and
 // goes by v is within v t of where it was up to t^2 w^2 |c| / 2, so ways past an obstacle cost little.
 //
-// Metric: sqrt(dx^2 + dy^2 + (w dtheta)^2) with the turn the shorter way; w is a length, by default the body's radius
-// (its farthest corner from the reference point), so that a unit of either moves no point further than a unit. It is
-// the geodesic metric of a cylinder of radius w, so the chord in (x, y, w cos theta, w sin theta) never exceeds it.
-// Planning widens the clearance by the factor 1 + 1e-9 plus rounding, so that a verification can't fail by rounding.
+// Metric: sqrt(dx^2 + dy^2 + (r dtheta)^2) with the turn the shorter way; r is the body's radius (its farthest corner
+// from the reference point), so that a unit of either moves no point further than a unit. It is the geodesic metric of
+// a cylinder of that radius, so the chord in (x, y, r cos theta, r sin theta) never exceeds it. Planning widens the
+// clearance by the factor 1 + 1e-9 plus rounding, so that a verification can't fail by rounding.
 #pragma once
 
 #include <array>
@@ -28,26 +28,19 @@
 
 namespace warren {
 
-struct Se2Options {
-  double clearance = 0.0;                   ///< room around the body; finite, >= 0; 0: touching is blocked
-  std::optional<double> angle_weight = {};  ///< world units a radian, > 0; none: the body's radius
-  std::optional<double> resolution = {};    ///< motions that come so near may be refused; > 0; none: radius / 10,000
-};
-
 /// Immutable after construction; one Query a thread.
 class Se2World : public BodyAmongObstacles {
  public:
-  /// Throws InputError for options out of range, outlines of the body and of obstacles that are no simple polygons, and
-  /// a scene without anything that confines the body. Without bounds the box of the obstacles confines the reference
-  /// point. Copies a map. Throws Stopped.
-  Se2World(const Scene& scene, std::span<const Vec2> outline, const Se2Options& options,
-           const Execution& execution = {});
+  /// clearance: room around the body; 0: touching is blocked. Throws InputError unless it is finite and >= 0, for
+  /// outlines of the body and of obstacles that are no simple polygons, and a scene without anything that confines the
+  /// body. Without bounds the box of the obstacles confines the reference point. Copies a map. Throws Stopped.
+  Se2World(const Scene& scene, std::span<const Vec2> outline, double clearance, const Execution& execution = {});
 
   bool is_free_motion(const State& a, const State& b, Query& query) const {
     return proved_free(judge_motion(a, b, query), query.refused);
   }
   double distance(const State& a, const State& b) const {
-    const double turn = angle_weight_ * turn_between(a.theta, b.theta);
+    const double turn = radius_ * turn_between(a.theta, b.theta);
     const Vec2 way = b.position() - a.position();
     return std::sqrt(dot(way, way) + turn * turn);
   }
@@ -57,7 +50,7 @@ class Se2World : public BodyAmongObstacles {
   State corridor_state(std::uint64_t seed, std::uint64_t index) const;
   std::array<double, 4> embed(const State& a) const {
     const auto [sine, cosine] = portable::sin_and_cos(a.theta);
-    return {a.x, a.y, angle_weight_ * cosine, angle_weight_ * sine};
+    return {a.x, a.y, radius_ * cosine, radius_ * sine};
   }
 
   MotionVerdict judge_motion(const State& a, const State& b, Query& query) const;
@@ -71,14 +64,13 @@ class Se2World : public BodyAmongObstacles {
   double suggested_samples(const Execution&) const { return 400.0; }
   std::uint64_t first_samples() const { return 50; }  ///< of a roadmap that is tried first
   /// Of the box times a full turn, in the metric.
-  double sampled_volume() const { return box().width() * box().height() * 2.0 * std::numbers::pi * angle_weight_; }
+  double sampled_volume() const { return box().width() * box().height() * 2.0 * std::numbers::pi * radius_; }
   double radius() const { return radius_; }  ///< of the body: its farthest corner from the reference point
-  double resolution() const { return resolution_; }
+  /// Motions that come so near may be refused.
+  double resolution() const { return 1e-4 * radius_; }
 
  private:
   double radius_;
-  double angle_weight_;
-  double resolution_;
   std::optional<CorridorPoints> corridors_;  // only of maps
 };
 

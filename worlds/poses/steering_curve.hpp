@@ -108,12 +108,11 @@ double pace_of(Steer steer, std::span<const Vec2> outline, double turning_radius
 /// How far a body has gone along a curve, at most.
 class CurveTravel {
  public:
-  /// pace(steer): as pace_of().
-  template <class Pace>
-  CurveTravel(const SteeringCurve& curve, const Pace& pace) : count_(curve.piece_count()) {
+  /// outline: as of pace_of(); of a disc maybe its middle.
+  CurveTravel(const SteeringCurve& curve, std::span<const Vec2> outline) : count_(curve.piece_count()) {
     for (std::size_t i = 0; i < count_; ++i) {
       lengths_[i] = curve.piece_length(i);
-      paces_[i] = pace(curve.piece(i).steer);
+      paces_[i] = pace_of(curve.piece(i).steer, outline, curve.turning_radius());
     }
   }
   /// After the way s from the begin.

@@ -30,7 +30,8 @@ class WaysOut {
     is_new(from);
   }
 
-  std::vector<Path<Se2>> run(std::size_t most) {
+  /// Nothing where the car has a long stroke where it stands.
+  std::optional<std::vector<Path<Se2>>> run(std::size_t most) {
     std::vector<Path<Se2>> found;
     for (std::size_t at = 0; at < poses_.size() && found.size() < most; ++at) {
       for (const Steer steer : {Steer::left, Steer::straight, Steer::right}) {
@@ -40,8 +41,7 @@ class WaysOut {
           const std::optional<Se2> to = longest(poses_[at].pose, steer, gear);
           if (!to) continue;
           if (is_long_) {
-            is_held_ = at != 0;
-            if (!is_held_) return {};
+            if (at == 0) return std::nullopt;
             if (found.size() < most) found.push_back(way_to(at, *to));
           } else if (poses_.size() < most_poses && is_new(*to)) {
             poses_.push_back({*to, at, steer, gear});
@@ -51,8 +51,6 @@ class WaysOut {
     }
     return found;
   }
-  /// After a run: has the car no long stroke where it stands?
-  bool is_held() const { return is_held_; }
 
  private:
   struct Reached {
@@ -107,19 +105,17 @@ class WaysOut {
   std::vector<Reached> poses_;  // in the order in which they were reached
   std::set<std::array<std::int32_t, 3>> met_;
   bool is_long_ = false;
-  bool is_held_ = true;
 };
 
 }  // namespace
 
 std::vector<Path<Se2>> ways_out(const CarBody& body, const Se2& from, std::size_t most, const Execution& execution) {
-  std::vector<Path<Se2>> ways;
   for (const double short_stroke : short_strokes) {
-    WaysOut search(body, from, short_stroke, execution);
-    ways = search.run(most);
-    if (!ways.empty() || !search.is_held()) break;
+    std::optional<std::vector<Path<Se2>>> ways = WaysOut(body, from, short_stroke, execution).run(most);
+    if (!ways) break;
+    if (!ways->empty()) return *std::move(ways);
   }
-  return ways;
+  return {};
 }
 
 }  // namespace warren

@@ -2,23 +2,155 @@
 #include "worlds/prices/map_prices.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <utility>
 
 #include "core/base/error.hpp"
 #include "core/base/trigonometry.hpp"
 #include "core/base/whole.hpp"
-#include "core/plane/geometry.hpp"
+#include "core/plane/polygon.hpp"
+#include "core/plane/se2.hpp"
 
 namespace warren {
 namespace {
 
+constexpr double on_border = 1e-9;
+
+/// A mask's value in that use: its factor, >= 1; none: blocked.
+std::optional<double> mask_factor(const PriceMask& mask, int value) {
+  if (value <= 0) return 1.0;
+  if (mask.kind == MaskKind::speed) {
+    const double limit = mask.base + mask.multiplier * value;  // per cent
+    if (!(limit > 0.0)) return std::nullopt;
+    return std::clamp(100.0 / limit, 1.0, largest_price);
+  }
+  if (mask.kind == MaskKind::keep_out) return value >= 100 ? mask.factor : std::optional(1.0);
+  if (value >= 100) return std::nullopt;
+  return 1.0 + (mask.factor.value_or(1.0) - 1.0) * value / 100.0;
+}
+
+/// Is that so of some value's factor?
+template <class Is>
+bool some_factor(const PriceMask& mask, const Is& is) {
+  for (int value = 1; value <= 100; ++value) {
+    if (is(mask_factor(mask, value))) return true;
+  }
+  return false;
+}
+
+/// Calls each(cells, x, y, factor) for the cells of value > 0 of the masks that were read.
+template <class Each>
+void for_mask_cells(const Prices& prices, const Execution& execution, const Each& each) {
+  for (const PriceMask& mask : prices.masks) {
+    if (!mask.read) continue;
+    const MaskCells& cells = *mask.read;
+    for (std::uint32_t y = 0; y < cells.height; ++y) {
+      execution.check();
+      for (std::uint32_t x = 0; x < cells.width; ++x) {
+        const int value = cells.values[std::size_t{y} * cells.width + x];
+        if (value > 0) each(cells, x, y, mask_factor(mask, value));
+      }
+    }
+  }
+}
+
+/// Corner (column, row) of a mask's cells, in the world.
+Vec2 mask_corner(const MaskCells& mask, double column, double row) {
+  const Vec2 p{mask.cell * column, mask.cell * row};
+  return mask.origin + (mask.yaw_rad == 0.0 ? p : Rotation(mask.yaw_rad)(p));
+}
+
+std::array<Vec2, 4> mask_square_in_world(const MaskCells& mask, std::uint32_t x, std::uint32_t y) {
+  return {mask_corner(mask, x, y), mask_corner(mask, x + 1.0, y), mask_corner(mask, x + 1.0, y + 1.0),
+          mask_corner(mask, x, y + 1.0)};
+}
+
+/// A corner in cells of the map; see the head.
+Vec2 corner_in_cells(const OccupancyMap& map, Vec2 in_world) {
+  Vec2 p = map_point(map, in_world);
+  for (double* x : {&p.x, &p.y}) {
+    const double line = std::round(*x);
+    if (std::abs(*x - line) <= on_border) *x = line + 0.0;
+  }
+  return p;
+}
+
+/// The four corners of a mask's cell, anticlockwise, in cells of the map.
+std::array<Vec2, 4> mask_square(const OccupancyMap& map, const MaskCells& mask, std::uint32_t x, std::uint32_t y) {
+  std::array<Vec2, 4> corners = mask_square_in_world(mask, x, y);
+  for (Vec2& p : corners) p = corner_in_cells(map, p);
+  return corners;
+}
+
+/// Does the closed segment meet the open unit square at `low`? Three axes part what does not: x, y, and across it.
+bool meets_square(const Segment& s, Vec2 low) {
+  const Box box = box_of(s);
+  const Vec2 high = low + Vec2{1.0, 1.0};
+  if (!(box.max.x > low.x && box.min.x < high.x && box.max.y > low.y && box.min.y < high.y)) return false;
+  if (s.a == s.b) return true;
+  bool left = false;
+  bool right = false;
+  for (const Vec2 corner : Box{low, high}.corners()) {
+    const int side = orient2d(s.a, s.b, corner);
+    left |= side > 0;
+    right |= side < 0;
+  }
+  return left && right;
+}
+
+/// In the polygon, and not on the border.
+bool is_inside(std::span<const Vec2> corners, Vec2 p) {
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (distance(p, polygon_side(corners, i)) <= on_border) return false;
+  }
+  return contains(corners, p);
+}
+
+/// Sets the bits of all cells whose open square meets the open polygon; corners in cells.
+void add_polygon_cells(Bitmap& cells, std::span<const Vec2> corners, const Execution& execution) {
+  const Box box = box_around(corners);
+  const auto whole = [](double x, std::uint32_t end) { return bounded_whole<std::uint32_t>(x, 0.0, end); };
+  const std::uint32_t first_x = whole(std::floor(box.min.x), cells.width());
+  const std::uint32_t last_x = whole(std::ceil(box.max.x), cells.width());
+  const std::uint32_t last_y = whole(std::ceil(box.max.y), cells.height());
+  for (std::uint32_t y = whole(std::floor(box.min.y), cells.height()); y < last_y; ++y) {
+    execution.check();
+    std::vector<std::size_t> sides;  // that come near the row
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Box side = box_of(polygon_side(corners, i));
+      if (side.max.y > y && side.min.y < y + 1.0) sides.push_back(i);
+    }
+    for (std::uint32_t x = first_x; x < last_x; ++x) {
+      if (x % 64 == 0) execution.check();
+      const Vec2 low{static_cast<double>(x), static_cast<double>(y)};
+      const bool is_met = std::any_of(sides.begin(), sides.end(),
+                                      [&](std::size_t i) { return meets_square(polygon_side(corners, i), low); });
+      if (is_met || contains(corners, low + Vec2{0.5, 0.5})) cells.set(x, y);
+    }
+  }
+}
+
+/// The least of the cells of a unit grid that a place is in, or on the border of.
+template <class OfCell>
+double least_around(Vec2 at, const OfCell& of_cell) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const double dy : {-on_border, on_border}) {
+    for (const double dx : {-on_border, on_border}) {
+      least = std::min(least, of_cell(bounded_whole<std::int64_t>(std::floor(at.x + dx)),
+                                      bounded_whole<std::int64_t>(std::floor(at.y + dy))));
+    }
+  }
+  return least;
+}
+
 constexpr double half_diagonal = 0.70710678118654757;
 constexpr double units = 1 << 20;  // of steps, a cell
 
-Cell cell_of(const OccupancyMap& map, Vec2 p) {
-  return {bounded_whole<std::uint32_t>(p.x, 0.0, map.width() - 1.0),
-          bounded_whole<std::uint32_t>(p.y, 0.0, map.height() - 1.0)};
+/// (1 - (d - radius) / D)^2 is so much, over the price, as (1 - d / (D + radius))^2.
+double clearance_scale(const ClearancePrice& price, double radius) {
+  const double share = (clearance_reach(price, radius) + radius) / clearance_reach(price, radius);
+  return price.price * share * share;
 }
 
 /// The pieces of a leg, cell by cell: calls piece(cell, u, from, to), u being the leg's direction, of length 1, which
@@ -49,8 +181,10 @@ void walk_cells(const OccupancyMap& map, Vec2 a, Vec2 b, const Piece& piece) {
   rows.go_on(t);
   while (t < length) {
     const double to = std::min({columns.next(), rows.next(), length});
-    double seen = 0.0;
-    if (to > t) seen = piece(cell_of(map, a + 0.5 * (t + to) * u), u, t, to);
+    const Vec2 middle = a + 0.5 * (t + to) * u;
+    const Cell cell{bounded_whole<std::uint32_t>(middle.x, 0.0, map.width() - 1.0),
+                    bounded_whole<std::uint32_t>(middle.y, 0.0, map.height() - 1.0)};
+    const double seen = to > t ? piece(cell, u, t, to) : 0.0;
     t = to;
     if (seen > 0.0) {
       columns.go_on(to + seen);
@@ -140,9 +274,10 @@ double integral_of_one(const StretchDistance& thing, double from, double to, dou
   return std::max(0.0, length - 2.0 / reach * roots + squares / (reach * reach));
 }
 
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
 /// The roots of a t^2 - 2 b t + c, both; NaN where there are none.
 std::pair<double, double> roots_of(double a, double b, double c) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const double inside = b * b - a * c;
   if (inside < 0.0) return {none, none};
   const double root = std::sqrt(inside);
@@ -153,7 +288,6 @@ std::pair<double, double> roots_of(double a, double b, double c) {
 
 /// Where the two are equally far: up to two places, NaN for none.
 std::pair<double, double> meetings(const StretchDistance& one, const StretchDistance& other) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
   if (one.is_side && other.is_side) return {(other.at_begin - one.at_begin) / (one.slope - other.slope), none};
   if (!one.is_side && !other.is_side) {
     const double apart = one.foot - other.foot;
@@ -170,12 +304,128 @@ std::pair<double, double> meetings(const StretchDistance& one, const StretchDist
 
 /// Where the distance is the reach.
 std::pair<double, double> ends_of_reach(const StretchDistance& thing, double reach) {
-  if (thing.is_side) return {(reach - thing.at_begin) / thing.slope, std::numeric_limits<double>::quiet_NaN()};
+  if (thing.is_side) return {(reach - thing.at_begin) / thing.slope, none};
   const double half = std::sqrt(reach * reach - thing.apart_sq);  // NaN where it is farther everywhere
   return {thing.foot - half, thing.foot + half};
 }
 
 }  // namespace
+
+bool restricts(const Prices& prices) {
+  if (!prices.keep_out.empty() || prices.unknown) return true;
+  return std::any_of(prices.masks.begin(), prices.masks.end(), [](const PriceMask& mask) {
+    return some_factor(mask, [](const auto& factor) { return !factor; });
+  });
+}
+
+OccupancyMap effective_map(const OccupancyMap& map, const Prices& prices, const Execution& execution) {
+  execution.reserve(2 * map.blocked.bytes() + map.unknown.bytes() + map.water.bytes());
+  OccupancyMap effective = map;
+  if (prices.unknown) effective.blocked.remove(map.unknown);
+  Bitmap forbidden = cell_bitmap(map.width(), map.height(), execution);
+  for (const KeepOut& area : prices.keep_out) {
+    std::vector<Vec2> corners;
+    for (const Vec2 p : area.corners) corners.push_back(corner_in_cells(map, p));
+    add_polygon_cells(forbidden, corners, execution);
+  }
+  for_mask_cells(prices, execution, [&](const MaskCells& cells, std::uint32_t x, std::uint32_t y, const auto& factor) {
+    if (!factor) add_polygon_cells(forbidden, mask_square(map, cells, x, y), execution);
+  });
+  effective.blocked.add(forbidden);
+  effective.water.remove(forbidden);  // it is blocked all the same: but to paths that begin on it
+  effective.free = map.blocked.size() - effective.blocked.count();
+  return effective;
+}
+
+Scene restricted_scene(const Scene& scene, const Prices& prices, const Execution& execution) {
+  Scene restricted = scene;
+  if (restricted.map) {
+    restricted.map = effective_map(*scene.map, prices, execution);
+    return restricted;
+  }
+  for (const KeepOut& area : prices.keep_out) restricted.polygons.push_back({area.corners, area.line});
+  for_mask_cells(prices, execution, [&](const MaskCells& cells, std::uint32_t x, std::uint32_t y, const auto& factor) {
+    if (factor) return;
+    const std::array<Vec2, 4> square = mask_square_in_world(cells, x, y);
+    restricted.polygons.push_back({{square.begin(), square.end()}, 0});
+  });
+  return restricted;
+}
+
+AreaFactors::AreaFactors(const Prices& prices, const OccupancyMap* map) {
+  const auto placed = [map](Vec2 p) { return map != nullptr ? corner_in_cells(*map, p) : p; };
+  for (const PricedArea& area : prices.areas) {
+    if (!(area.factor > 1.0)) continue;
+    Area own{area.factor, {}, {}};
+    for (const Vec2 p : area.corners) own.corners.push_back(placed(p));
+    own.box = box_around(own.corners);
+    areas_.push_back(std::move(own));
+  }
+  for (const PriceMask& mask : prices.masks) {
+    const auto is_dear = [](const std::optional<double>& factor) { return factor.value_or(1.0) > 1.0; };
+    if (!mask.read || !some_factor(mask, is_dear)) continue;
+    // The axes from the far corners, so that their rounding is that of one cell.
+    const double width = mask.read->width;
+    const double height = mask.read->height;
+    const Vec2 origin = placed(mask_corner(*mask.read, 0.0, 0.0));
+    const Vec2 across = placed(mask_corner(*mask.read, width, 0.0)) - origin;
+    const Vec2 along = placed(mask_corner(*mask.read, 0.0, height)) - origin;
+    masks_.push_back({mask, origin, (1.0 / width) * across, (1.0 / height) * along});
+  }
+}
+
+double AreaFactors::factor(Vec2 p) const {
+  double greatest = 1.0;
+  for (const Area& area : areas_) {
+    if (area.factor > greatest && area.box.contains(p) && is_inside(area.corners, p)) greatest = area.factor;
+  }
+  for (const Mask& mask : masks_) {
+    const MaskCells& cells = *mask.mask.read;
+    const Vec2 from = p - mask.origin;
+    const double area = cross(mask.right, mask.up);
+    const Vec2 in_mask{cross(from, mask.up) / area, cross(mask.right, from) / area};
+    greatest = std::max(greatest, least_around(in_mask, [&](std::int64_t x, std::int64_t y) {
+                          if (x < 0 || y < 0 || x >= cells.width || y >= cells.height) return 1.0;
+                          const auto at = as_whole<std::size_t>(y * cells.width + x);
+                          return mask_factor(mask.mask, cells.values[at]).value_or(1.0);
+                        }));
+  }
+  return greatest;
+}
+
+template <class FactorAt>
+double AreaFactors::over(Vec2 p, Vec2 u, double length, std::vector<double>& cuts, const FactorAt& factor_at) const {
+  cuts.assign(1, 0.0);
+  const Box box = box_of({p, p + length * u});
+  const auto add = [&](double t) {
+    if (t > 0.0 && t < length) cuts.push_back(t);  // not NaN, where a side runs along
+  };
+  for (const Area& area : areas_) {
+    if (!area.box.meets(box)) continue;
+    for (std::size_t i = 0; i < area.corners.size(); ++i) {
+      const Segment side = polygon_side(area.corners, i);
+      if (box_of(side).meets(box)) add(cross(side.a - p, side.b - side.a) / cross(u, side.b - side.a));
+    }
+  }
+  for (const Mask& mask : masks_) {
+    const double area = cross(mask.right, mask.up);
+    const auto lines = [&](double at, double slope, double most) {
+      const double to = at + slope * length;
+      const double last = std::min(std::max(at, to), most);
+      for (double line = std::max(std::ceil(std::min(at, to)), 0.0); line <= last; ++line) add((line - at) / slope);
+    };
+    lines(cross(p - mask.origin, mask.up) / area, cross(u, mask.up) / area, mask.mask.read->width);
+    lines(cross(mask.right, p - mask.origin) / area, cross(mask.right, u) / area, mask.mask.read->height);
+  }
+  cuts.push_back(length);
+  std::sort(cuts.begin(), cuts.end());
+  double sum = 0.0;
+  for (std::size_t i = 1; i < cuts.size(); ++i) {
+    if (!(cuts[i] > cuts[i - 1])) continue;
+    sum += (cuts[i] - cuts[i - 1]) * (factor_at(p + 0.5 * (cuts[i - 1] + cuts[i]) * u) - 1.0);
+  }
+  return sum;
+}
 
 double clearance_reach(const ClearancePrice& price, double radius) {
   if (price.reach) return *price.reach;
@@ -183,32 +433,25 @@ double clearance_reach(const ClearancePrice& price, double radius) {
   throw UsageError("@clearance-price: a point has no width to reach as far as: say P,D");
 }
 
-double clearance_scale(const ClearancePrice& price, double radius) {
-  const double share = (clearance_reach(price, radius) + radius) / clearance_reach(price, radius);
-  return price.price * share * share;
-}
-
 MapPrices::MapPrices(const OccupancyMap& effective, double radius, const Prices& prices, const Execution& execution)
     : map_(effective),
-      areas_(prices, [&](Vec2 p) { return corner_in_cells(effective, p); }),
+      areas_(prices, &effective),
       unknown_(effective.unknown.empty() ? 1.0 : prices.unknown.value_or(1.0)) {
   if (prices.clearance && prices.clearance->price > 0.0) {
-    const double reach = clearance_reach(*prices.clearance, radius);
-    reach_ = (reach + radius) / map_.cell;
+    reach_ = (clearance_reach(*prices.clearance, radius) + radius) / map_.cell;
     price_ = clearance_scale(*prices.clearance, radius);
     field_.emplace(map_.blocked, CellDistance::squares, true, execution);
     const double open = 2.0 * (reach_ + half_diagonal);  // squares are halves of cells
     open_sq_ = bounded_whole<std::uint32_t>(std::ceil(open * open));
   }
-  const bool any_unknown = unknown_ > 1.0;
-  has_areas_ = any_unknown || !areas_.empty();
+  has_areas_ = unknown_ > 1.0 || !areas_.empty();
   if (!has_areas_) return;
   touched_ = cell_bitmap(map_.width(), map_.height(), execution);
   for (const AreaFactors::Area& area : areas_.areas()) add_polygon_cells(touched_, area.corners, execution);
   for_mask_cells(prices, execution, [&](const MaskCells& cells, std::uint32_t x, std::uint32_t y, const auto& factor) {
     if (factor && *factor > 1.0) add_polygon_cells(touched_, mask_square(map_, cells, x, y), execution);
   });
-  if (any_unknown) touched_.add(map_.unknown);
+  if (unknown_ > 1.0) touched_.add(map_.unknown);
 }
 
 void MapPrices::keep_near(double cells, const Execution& execution) {
@@ -219,7 +462,7 @@ void MapPrices::keep_near(double cells, const Execution& execution) {
 void MapPrices::renew(Cell low, Cell high, const Execution& execution) {
   number_ = fresh_number();
   if (field_) field_->renew(map_.blocked, low, high, execution);
-  for (std::uint32_t y = low.y; has_areas_ && unknown_ > 1.0 && y <= high.y; ++y) {
+  for (std::uint32_t y = low.y; unknown_ > 1.0 && y <= high.y; ++y) {
     const auto unknown = map_.unknown.row(y);
     const auto touched = touched_.row(y);
     for (std::size_t w = 0; w < touched.size(); ++w) touched[w] |= unknown[w];
@@ -232,14 +475,14 @@ std::span<const MapPrices::Site> MapPrices::sites(Cell cell, Scratch& scratch) c
   const std::size_t number = std::size_t{cell.y} * map_.width() + cell.x;
   if (scratch.of != number_) scratch.kept.assign(Scratch::kept_rows * Scratch::kept_columns, {});
   scratch.of = number_;
-  const std::size_t row = cell.y % Scratch::kept_rows;
-  Scratch::Sites& kept = scratch.kept[row * Scratch::kept_columns + cell.x % Scratch::kept_columns];
+  const std::size_t begin = cell.y % Scratch::kept_rows * Scratch::kept_columns;  // of its row
+  Scratch::Sites& kept = scratch.kept[begin + cell.x % Scratch::kept_columns];
   if (kept.cell == number) return kept.sites;
   kept.cell = number;
   kept.sites.clear();
   const double nearest = field_->distance(cell.x, cell.y);
   const double limit = std::min(reach_, nearest + half_diagonal);
-  const double most = limit + half_diagonal + AreaFactors::on_border;
+  const double most = limit + half_diagonal + on_border;
   const Vec2 middle{cell.x + 0.5, cell.y + 0.5};
   const auto take = [&](std::int64_t edge_x, std::int64_t edge_y, int dx, int dy) {
     const Vec2 at{dx == 0 ? middle.x : static_cast<double>(edge_x), dy == 0 ? middle.y : static_cast<double>(edge_y)};
@@ -280,8 +523,9 @@ std::span<const MapPrices::Site> MapPrices::sites(Cell cell, Scratch& scratch) c
   return kept.sites;
 }
 
-/// What they are to a piece of that cell which begins at `p`.
-void MapPrices::gather(Cell cell, Vec2 p, Vec2 u, Scratch& scratch) const {
+/// Of a piece of that cell which begins at `p`.
+double MapPrices::nearness_in(Cell cell, Vec2 p, Vec2 u, double length, Scratch& scratch) const {
+  if (field_->squared(cell.x, cell.y) >= open_sq_) return 0.0;
   scratch.things.clear();
   for (const Site& site : sites(cell, scratch)) {
     const Vec2 away = site.at - p;
@@ -289,11 +533,6 @@ void MapPrices::gather(Cell cell, Vec2 p, Vec2 u, Scratch& scratch) const {
                              : site.dy == 0.0 ? StretchDistance::side(site.dx * away.x, -site.dx * u.x)
                                               : StretchDistance::corner(site.at, p, u));
   }
-}
-
-double MapPrices::nearness_in(Cell cell, Vec2 p, Vec2 u, double length, Scratch& scratch) const {
-  if (field_->squared(cell.x, cell.y) >= open_sq_) return 0.0;
-  gather(cell, p, u, scratch);
   return scratch.sum.integral(scratch.things, 0.0, length, reach_);
 }
 
@@ -313,7 +552,7 @@ double MapPrices::areas_in(Vec2 p, Vec2 u, double length, Scratch& scratch) cons
   return areas_.over(p, u, length, scratch.cuts, [&](Vec2 at) {
     const double of_areas = areas_.factor(at);
     if (!(unknown_ > of_areas)) return of_areas;
-    return std::max(of_areas, AreaFactors::least_around(at, [&](std::int64_t x, std::int64_t y) {
+    return std::max(of_areas, least_around(at, [&](std::int64_t x, std::int64_t y) {
                       return map_.unknown.holds(x, y) ? unknown_ : 1.0;
                     }));
   });
@@ -337,8 +576,6 @@ PriceParts MapPrices::parts(Vec2 a, Vec2 b, Scratch& scratch) const {
   return parts;
 }
 
-double MapPrices::cost(Vec2 a, Vec2 b, Scratch& scratch) const { return distance(a, b) + parts(a, b, scratch).sum(); }
-
 /// From the middle of a cell to the place of its rim where the step leaves it; in cells.
 double MapPrices::half_step(Cell cell, unsigned direction, Scratch& scratch) const {
   const Vec2 middle{cell.x + 0.5, cell.y + 0.5};
@@ -359,8 +596,7 @@ std::uint64_t MapPrices::step_up(Cell from, unsigned direction, Scratch& scratch
   return bounded_whole<std::uint64_t>(std::ceil(units * cost));
 }
 
-SidePrices::SidePrices(const WallIndex& sides, double radius, const Prices& prices)
-    : sides_(sides), areas_(prices, [](Vec2 p) { return p; }) {
+SidePrices::SidePrices(const WallIndex& sides, double radius, const Prices& prices) : sides_(sides), areas_(prices) {
   if (!prices.clearance || !(prices.clearance->price > 0.0)) return;
   reach_ = clearance_reach(*prices.clearance, radius) + radius;
   price_ = clearance_scale(*prices.clearance, radius);
@@ -435,6 +671,7 @@ double NearnessSum::integral(std::span<const StretchDistance> things, double fro
   for (const StretchDistance& thing : things) {
     if (least_squared(thing, from, to) <= enough) near_.push_back(thing);
   }
+  if (near_.empty()) return 0.0;
   if (near_.size() == 1 && is_all(near_[0])) return integral_of_one(near_[0], from, to, reach);
   cuts_.assign(1, from);
   const auto cut_at = [&](const std::pair<double, double>& both) {
@@ -451,16 +688,10 @@ double NearnessSum::integral(std::span<const StretchDistance> things, double fro
   double sum = 0.0;
   for (std::size_t c = 1; c < cuts_.size(); ++c) {
     const double middle = 0.5 * (cuts_[c - 1] + cuts_[c]);
-    const StretchDistance* nearest = nullptr;
-    double least = reach * reach;
-    for (const StretchDistance& thing : near_) {
-      const double d = squared(thing, middle);
-      if (d < least) {
-        least = d;
-        nearest = &thing;
-      }
-    }
-    if (nearest != nullptr) sum += integral_of_one(*nearest, cuts_[c - 1], cuts_[c], reach);
+    const auto nearest = std::min_element(near_.begin(), near_.end(), [&](const auto& one, const auto& other) {
+      return squared(one, middle) < squared(other, middle);
+    });
+    if (squared(*nearest, middle) < reach * reach) sum += integral_of_one(*nearest, cuts_[c - 1], cuts_[c], reach);
   }
   return sum;
 }

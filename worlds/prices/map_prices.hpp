@@ -2,6 +2,10 @@
 // What straight legs cost among the cells of a map (scenes/scene/prices.hpp): exact but for rounding. A leg is walked
 // cell by cell; where the distance transform says that nothing is near it goes on as far as it can. In one cell every
 // blocked square lies to one side of the leg or beyond a corner, and of each row of squares only the nearest two count.
+//
+// Before it, a map with what a question forbids and opens: keep-out polygons, blocked cells of masks, unknown cells at
+// a price. A cell is blocked where its open square meets an open polygon, or the open square of a mask's blocked cell:
+// by exact orientations of the corners in cells. Corners within a billionth of a line between cells are on it.
 #pragma once
 
 #include <cmath>
@@ -12,15 +16,62 @@
 #include <vector>
 
 #include "core/base/bitmap.hpp"
+#include "core/base/types.hpp"
+#include "core/plane/geometry.hpp"
 #include "core/run/execution.hpp"
 #include "parallel/once.hpp"
 #include "scenes/scene/occupancy_map.hpp"
 #include "scenes/scene/prices.hpp"
+#include "scenes/scene/scene.hpp"
 #include "spatial/maps/free_cells.hpp"
 #include "spatial/obstacles/wall_index.hpp"
-#include "worlds/prices/effective_map.hpp"
 
 namespace warren {
+
+/// Is there anything that changes which cells are blocked?
+bool restricts(const Prices& prices);
+
+/// The map as it is planned on. Masks have been read. Throws Stopped.
+OccupancyMap effective_map(const OccupancyMap& map, const Prices& prices, const Execution& execution);
+
+/// The scene as it is planned in, which restricts(): on a map the map above; else keep-out polygons and the masks'
+/// blocked cells are polygons more. Masks have been read. Throws Stopped.
+Scene restricted_scene(const Scene& scene, const Prices& prices, const Execution& execution);
+
+/// The factors of length that areas and masks give to places. The greatest of the open areas and cells around a place
+/// counts; within a billionth of a border the lesser of both sides. Copies what it needs of the prices. Immutable.
+class AreaFactors {
+ public:
+  struct Area {
+    double factor;
+    std::vector<Vec2> corners;
+    Box box;
+  };
+
+  /// Places are the world's, or in the cells of a map. Areas and masks that cost nothing are left out.
+  explicit AreaFactors(const Prices& prices, const OccupancyMap* map = nullptr);
+
+  bool empty() const { return areas_.empty() && masks_.empty(); }
+  const std::vector<Area>& areas() const { return areas_; }
+  /// At a place.
+  double factor(Vec2 p) const;
+  /// The integral of factor_at(p) - 1 over a leg of that length in the direction u, which has length 1. factor_at: as
+  /// factor(), or more where it changes at places that are cut already.
+  template <class FactorAt>
+  double over(Vec2 p, Vec2 u, double length, std::vector<double>& cuts, const FactorAt& factor_at) const;
+
+ private:
+  struct Mask {
+    PriceMask mask;
+    Vec2 origin;  // of its cell (0, 0)
+    Vec2 right;   // a step of its columns, and of its rows
+    Vec2 up;
+  };
+
+  std::vector<Area> areas_;
+  std::vector<Mask> masks_;
+};
+
 // What nearness costs along a straight stretch: the integral of (1 - d / reach)^2 where d < reach, d being the distance
 // to the nearest of several things. Each of them is, by arc length, a side (its distance is a straight line) or a
 // corner (a hyperbola). The stretch is cut where any two are equally far, and where one is at the reach; in each
@@ -62,9 +113,6 @@ class NearnessSum {
 /// The reach D of a clearance price. Throws UsageError where neither it nor the body's width says one.
 double clearance_reach(const ClearancePrice& price, double radius);
 
-/// (1 - (d - radius) / D)^2 is so much, over the price, as (1 - d / (D + radius))^2.
-double clearance_scale(const ClearancePrice& price, double radius);
-
 /// Any number of threads may ask while nobody changes it, each with its own Scratch.
 class MapPrices {
  public:
@@ -90,7 +138,7 @@ class MapPrices {
     std::uint64_t of = 0;  // whose; 0: nobody's
   };
 
-  /// Refers to the map, which is the effective one (worlds/prices/effective_map.hpp): what is unknown and not blocked
+  /// Refers to the map, which is the effective one (effective_map()): what is unknown and not blocked
   /// costs prices.unknown. radius: of the disc, world units, >= 0. Masks have been read. Throws UsageError as
   /// clearance_reach(), Stopped.
   MapPrices(const OccupancyMap& effective, double radius, const Prices& prices, const Execution& execution);
@@ -109,7 +157,7 @@ class MapPrices {
   /// Of a straight leg of the middle that touches nothing blocked, world coordinates.
   PriceParts parts(Vec2 a, Vec2 b, Scratch& scratch) const;
   /// The leg's length and what it costs beyond.
-  double cost(Vec2 a, Vec2 b, Scratch& scratch) const;
+  double cost(Vec2 a, Vec2 b, Scratch& scratch) const { return distance(a, b) + parts(a, b, scratch).sum(); }
   /// The leg from the middle of a free cell to that of its free neighbour; direction: of cell_steps
   /// (spatial/maps/free_cells.hpp). Whole units of 2^-20 cell, rounded up; there and back weigh the same.
   std::uint64_t step_up(Cell from, unsigned direction, Scratch& scratch) const;
@@ -118,7 +166,6 @@ class MapPrices {
   double nearness(Vec2 a, Vec2 b, Scratch& scratch) const;
   double nearness_in(Cell cell, Vec2 p, Vec2 u, double length, Scratch& scratch) const;
   std::span<const Site> sites(Cell cell, Scratch& scratch) const;
-  void gather(Cell cell, Vec2 p, Vec2 u, Scratch& scratch) const;
   double areas(Vec2 a, Vec2 b, Scratch& scratch) const;
   double areas_in(Vec2 p, Vec2 u, double length, Scratch& scratch) const;
   double half_step(Cell cell, unsigned direction, Scratch& scratch) const;

@@ -25,8 +25,6 @@ class CorridorPoints {
   Vec2 at(std::uint64_t seed, std::uint64_t index) const;
 
  private:
-  Vec2 along(Cell cell, std::uint64_t seed, std::uint64_t index) const;
-
   CorridorCells cells_;
   OccupancyMap place_;  // where the map lies; without its cells
   double reach_;

@@ -19,7 +19,6 @@
 #include "core/plane/se2.hpp"
 #include "parallel/chunks.hpp"
 #include "spatial/maps/distance_field.hpp"
-#include "worlds/rasters/convex_pieces.hpp"
 #include "worlds/rasters/lattice_polygons.hpp"
 
 namespace warren {
@@ -330,11 +329,8 @@ class Widening {
     const auto column = [&](std::int64_t x) { return as_whole<std::uint32_t>(std::clamp<std::int64_t>(x, 0, width)); };
     for (std::int64_t y = 0; y < height; ++y) {
       const auto row = as_whole<std::uint32_t>(y);
-      if (y + stamp_.least_y < 0 || y + stamp_.most_y >= height) {
-        result_.set_run(row, 0, column(width));
-        continue;
-      }
-      result_.set_run(row, 0, column(-stamp_.least_x));
+      const bool is_beyond = (y + stamp_.least_y < 0 || y + stamp_.most_y >= height);
+      result_.set_run(row, 0, column(is_beyond ? width : -stamp_.least_x));
       result_.set_run(row, column(width - stamp_.most_x), column(width));
     }
   }
@@ -366,6 +362,7 @@ Stamp stamp_of(const LayerJob& job, double cell, double room, const Execution& e
   const Bitmap marked = marking.take();
   Stamp stamp;
   for (int j = 0; j < side; ++j) {
+    execution.check();
     for (int i = 0; i < side; ++i) {
       if (!marked.holds(i, j)) continue;
       const int first = i;

@@ -6,11 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
-#include <utility>
 
 #include "apps/serve/http/http_message.hpp"
-#include "core/base/error.hpp"
 #include "core/plane/geometry.hpp"
 #include "core/plane/polygon.hpp"
 #include "parallel/chunks.hpp"
@@ -109,13 +106,9 @@ SeenLegs seen_legs(std::span<const Vec2> path, const PathView& view) {
 
 PathState kept_state(const Answer& answer, std::size_t i) {
   PathState state;
-  state.width = answer.states.width;
-  std::ranges::copy(answer.states[i], state.numbers.begin());
+  state.width = answer.state_width();
+  std::ranges::copy(answer.numbers(i), state.numbers.begin());
   return state;
-}
-PathState only_state(const Answer& answer) {
-  if (answer.states.empty()) return {.numbers = {answer.path.front().x, answer.path.front().y}, .width = 2};
-  return kept_state(answer, 0);
 }
 Vec2 at(const PathState& state) { return {state.numbers[0], state.numbers[1]}; }
 
@@ -330,7 +323,7 @@ std::vector<PathPlace> places_along(const Answer& answer, std::size_t count, con
     execution.poll(leg);
     length += legs.length(leg);
   }
-  if (length == 0.0) return {{0.0, only_state(answer)}};
+  if (length == 0.0) return {{0.0, kept_state(answer, 0)}};
   const auto wanted = [&](std::size_t k) {
     return k + 1 == count ? length : length * static_cast<double>(k) / static_cast<double>(count - 1);
   };

@@ -4,24 +4,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <span>
+#include <set>
 #include <tuple>
-#include <utility>
 
 #include "apps/serve/graphs/json_body_io.hpp"
 #include "apps/serve/http/http_message.hpp"
 #include "core/base/bitmap.hpp"
-#include "core/base/error.hpp"
 #include "core/plane/geometry.hpp"
 #include "core/plane/polygon.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "scenes/text/human_units.hpp"
 #include "scenes/text/scene_text.hpp"
-#include "solve/question/question.hpp"
 
 namespace warren::serve {
 namespace {
@@ -78,8 +74,8 @@ std::vector<CellChange> cells_of(const OrderedJson& json, const std::string& whe
   });
 }
 
-// Polygons are few beside walls and are looked through; of walls, those to remove are sorted, so a change costs
-// O(n log k) for n walls and k shapes.
+// Polygons are few beside walls and are looked through; walls to remove stand in a tree, so a change costs O(n log k)
+// for n walls and k shapes.
 
 double distance_to(const std::vector<Vec2>& polygon, Vec2 p) {
   if (contains(polygon, p)) return 0.0;
@@ -94,8 +90,7 @@ class Removal {
   Removal(const Scene& scene, const SceneChange& change, const Execution& execution)
       : scene_(scene), execution_(execution), is_gone_(scene.polygons.size(), false), shapes_(change.remove) {
     for (const ErasedPlace& place : change.erase) erase(place);
-    for (const Segment& wall : shapes_.walls) walls_.push_back(ordered_ends(wall.a, wall.b));
-    std::sort(walls_.begin(), walls_.end());
+    for (const Segment& wall : shapes_.walls) walls_.insert(ordered_ends(wall.a, wall.b));
     for (const std::vector<Vec2>& polygon : shapes_.polygons) take(polygon);
   }
   const DrawnShapes& shapes() const { return shapes_; }
@@ -104,13 +99,17 @@ class Removal {
     execution_.reserve(scene_.walls.size() * sizeof(Segment));
     std::vector<Segment> left;
     left.reserve(scene_.walls.size());
-    std::vector<bool> used(walls_.size(), false);
     for (std::size_t i = 0; i < scene_.walls.size(); ++i) {
       execution_.poll(i);
       const Segment wall = scene_.walls.segment(i);
-      if (!is_removed(wall, used)) left.push_back(wall);
+      const auto gone = walls_.find(ordered_ends(wall.a, wall.b));
+      if (gone == walls_.end()) {
+        left.push_back(wall);
+      } else {
+        walls_.erase(gone);  // each takes one
+      }
     }
-    if (std::find(used.begin(), used.end(), false) != used.end()) refuse("wall");
+    if (!walls_.empty()) refuse("wall");
     return left;
   }
   std::vector<ScenePolygon> polygons_left() const {
@@ -124,17 +123,6 @@ class Removal {
  private:
   [[noreturn]] static void refuse(std::string_view what) {
     throw HttpError(400, "not_there", "remove", fmt::format("a {} that shall be removed is not in the world", what));
-  }
-  bool is_removed(const Segment& wall, std::vector<bool>& used) const {
-    if (walls_.empty()) return false;
-    const auto [first, last] = std::equal_range(walls_.begin(), walls_.end(), ordered_ends(wall.a, wall.b));
-    for (auto it = first; it != last; ++it) {  // each takes one
-      const auto k = static_cast<std::size_t>(it - walls_.begin());
-      if (used[k]) continue;
-      used[k] = true;
-      return true;
-    }
-    return false;
   }
   void take(const std::vector<Vec2>& polygon) {
     execution_.check();
@@ -170,7 +158,7 @@ class Removal {
   const Execution& execution_;
   std::vector<bool> is_gone_;  // of polygons
   DrawnShapes shapes_;
-  std::vector<std::array<double, 4>> walls_;  // their ends, sorted
+  std::multiset<std::array<double, 4>> walls_;  // ends of those that are not found yet
 };
 
 void check(const Scene& scene, const SceneChange& change) {

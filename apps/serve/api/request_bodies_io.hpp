@@ -14,9 +14,6 @@
 #include <vector>
 
 #include "apps/serve/api/served_world.hpp"
-#include "core/base/types.hpp"
-#include "core/run/execution.hpp"
-#include "scenes/scene/scene.hpp"
 #include "scenes/text/json_text.hpp"
 #include "solve/replanner.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/serve/api/route.hpp"
+#include "apps/serve/api/world_service.hpp"
 
 #include <fmt/format.h>
 
@@ -13,16 +13,6 @@ namespace warren::serve {
 namespace {
 
 [[noreturn]] void refuse_path() { throw HttpError(404, "not_found", "path", "there is nothing at this address"); }
-
-/// zoom, column, row.png
-Route tile_route(std::string_view z, std::string_view x, std::string_view y, const TileGrid& grid) {
-  constexpr std::string_view ending = ".png";
-  if (!y.ends_with(ending)) refuse_path();
-  y.remove_suffix(ending.size());
-  const auto tile = grid.tile_at(z, x, y);
-  if (!tile) refuse_path();
-  return {.place = Place::tile, .tile = *tile};
-}
 
 Route api_route(const std::vector<std::string_view>& words) {
   const bool is_path = words.size() > 3 && words[2] == "path" && !words[3].empty();
@@ -43,16 +33,15 @@ Route place_of(std::string_view path, const TileGrid& grid, std::string_view has
   if (is_of_layers && words.size() == 4 && words[3] == "legend") {
     return {.place = Place::legend, .name = std::string(words[2])};
   }
-  const std::size_t of_tile = is_of_layers ? 3 : 2;
+  constexpr std::string_view ending = ".png";
+  const std::size_t of_tile = is_of_layers ? 3 : 2;  // zoom, column, row.png
   if (words.size() != of_tile + 3 || !(is_of_layers || words[1] == "tiles")) refuse_path();
-  Route route = tile_route(words[of_tile], words[of_tile + 1], words[of_tile + 2], grid);
-  if (!is_of_layers) {
-    route.has_its_hash = has_hash;
-    return route;
-  }
-  route.place = Place::layer;
-  route.name = words[2];
-  return route;
+  if (!words.back().ends_with(ending)) refuse_path();
+  words.back().remove_suffix(ending.size());
+  const auto tile = grid.tile_at(words[of_tile], words[of_tile + 1], words.back());
+  if (!tile) refuse_path();
+  if (is_of_layers) return {.place = Place::layer, .name = std::string(words[2]), .tile = *tile};
+  return {.place = Place::tile, .tile = *tile, .has_its_hash = has_hash};
 }
 
 }  // namespace

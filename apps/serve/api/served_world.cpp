@@ -4,16 +4,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cstdint>
-
 #include "core/base/error.hpp"
 #include "scenes/text/scene_text.hpp"
 #include "solve/explain_answer.hpp"
 #include "solve/kept/lattice_roadmap.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
-#include "solve/question/question.hpp"
 #include "solve/solve.hpp"
-#include "verify/judges/effective_scene.hpp"
+#include "verify/judges/verify_price.hpp"
 
 namespace warren::serve {
 namespace {

@@ -15,12 +15,8 @@
 
 #include "apps/serve/graphs/route_graph.hpp"
 #include "apps/serve/tiles/world_tiles.hpp"
-#include "core/run/execution.hpp"
-#include "parallel/once.hpp"
-#include "scenes/scene/scene.hpp"
 #include "solve/answer/answer.hpp"
 #include "solve/answer/by_products.hpp"
-#include "solve/kept/roadmap.hpp"
 #include "solve/kept/roadmap_query.hpp"
 #include "solve/kinds/kept_ways.hpp"
 #include "solve/question/solve_options.hpp"

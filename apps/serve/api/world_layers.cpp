@@ -8,10 +8,8 @@
 
 #include "apps/serve/api/kept_path.hpp"
 #include "core/base/error.hpp"
-#include "scenes/scene/scene.hpp"
 #include "scenes/text/human_units.hpp"
 #include "scenes/text/json_text.hpp"
-#include "solve/question/question.hpp"
 
 namespace warren::serve {
 namespace {

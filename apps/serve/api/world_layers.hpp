@@ -13,8 +13,6 @@
 #include "apps/serve/api/served_world.hpp"
 #include "apps/serve/http/kept_values.hpp"
 #include "apps/serve/tiles/roadmap_layer.hpp"
-#include "core/run/execution.hpp"
-#include "parallel/once.hpp"
 
 namespace warren::serve {
 

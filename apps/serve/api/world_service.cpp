@@ -5,27 +5,18 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <span>
-#include <utility>
 
 #include "apps/serve/api/kept_path.hpp"
 #include "apps/serve/api/request_bodies_io.hpp"
 #include "apps/serve/api/world_layers.hpp"
-#include "apps/serve/http/http_message.hpp"
-#include "apps/serve/http/kept_values.hpp"
 #include "apps/serve/page/served_files.hpp"
-#include "core/base/error.hpp"
 #include "pictures/formats/markup.hpp"
 #include "pictures/layers/draw_cells.hpp"
-#include "scenes/files/scene_io.hpp"
-#include "scenes/scene/scene.hpp"
+#include "scenes/files/plane_formats_io.hpp"
 #include "scenes/text/human_units.hpp"
 #include "scenes/text/input_file_io.hpp"
-#include "scenes/text/json_text.hpp"
-#include "solve/answer/answer.hpp"
 #include "solve/answer/world_account.hpp"
 #include "solve/answer/write_answer_io.hpp"
 #include "solve/kept/ask_batch_io.hpp"
@@ -82,6 +73,43 @@ std::string RunningQuestions::told(const std::string& name, std::uint64_t from) 
 }
 
 namespace {
+
+// What is asked about route graphs.
+
+std::vector<DrawnEdge> edges_of(const RouteGraph& graph, const std::vector<RouteEnds>& ends) {
+  const auto place = [&](std::size_t node) { return EdgePlace{graph.nodes[node].at, graph.nodes[node].theta}; };
+  std::vector<DrawnEdge> edges;
+  for (const RouteEnds& e : ends) edges.push_back({place(e.from), place(e.to)});
+  return edges;
+}
+
+void refuse_blocked(const RouteGraph& graph, const std::vector<EdgeVerdict>& verdicts) {
+  const auto first = std::ranges::find(verdicts, false, &EdgeVerdict::free);
+  if (first == verdicts.end()) return;
+  const auto blocked = std::ranges::count(verdicts, false, &EdgeVerdict::free);
+  const RouteEdge& edge = graph.edges[static_cast<std::size_t>(first - verdicts.begin())];
+  throw HttpError(422, "not_free", "edges",
+                  fmt::format("{} of {} edges are not free, so nothing is saved; edge {} from node {} to {}: {}",
+                              blocked, verdicts.size(), edge.id, edge.from, edge.to, words_of(*first)));
+}
+
+const EdgeJudge& judge_of(const ServedWorld& world, const Execution& execution) {
+  if (world.query() != nullptr) body_on_edges(world.query()->roadmap());  // which may steer otherwise
+  check_drives_edges(world.robot());
+  if (world.query() != nullptr && world.query()->roadmap().lattice != nullptr) {
+    throw UsageError("a large maze is asked by its lattice, and route graphs are for maps and scenes");
+  }
+  return world.judge(execution);
+}
+
+RouteGraph asked_graph(const ServedWorld& world, std::string_view body, const Execution& execution) {
+  const GraphOptions options = read_graph_options(body);
+  judge_of(world, execution);  // or there are no such graphs
+  const bool is_as_it_is = options.kind == GraphKind::roadmap && !options.samples && !options.neighbours;
+  if (world.query() != nullptr && is_as_it_is) return graph_of_roadmap(world.query()->roadmap(), execution);
+  return graph_of_roadmap(built_roadmap(world.barred(execution), world.robot(), world.clearance(), options, execution),
+                          execution);
+}
 
 std::size_t sample_count(const HttpRequest& request) {
   constexpr double most = 2000.0;
@@ -302,10 +330,9 @@ class PathService {
     std::size_t points = 0;
     for (const std::vector<Vec2>& chain : chains) points += chain.size();
     execution.reserve(points * bytes_a_point);
-    JsonObject json;
-    json.add("length", kept.way.length, "points", std::uint64_t{kept.curve.size()});
-    json.add_json("chains", json_chains(chains, execution));
-    return {.body = json.closed() + "\n"};
+    return {.body = json_object("length", kept.way.length, "points", std::uint64_t{kept.curve.size()}, "chains",
+                                JsonText{json_chains(chains, execution)}) +
+                    "\n"};
   }
   HttpResponse clearance(const KeptPath& kept, const HttpRequest& request, const Execution& execution) const {
     const std::size_t count = sample_count(request);
@@ -421,8 +448,8 @@ class AnsweringService : public HttpService {
     return world_.body_asked(robot, clearance ? std::optional((*clearance)[0]) : std::nullopt);
   }
   HttpResponse file(const HttpRequest& request, const std::string& name) const {
-    const ServedFile* found = served_file(name);
-    if (found == nullptr) throw HttpError(404, "not_found", "path", "there is nothing at this address");
+    const auto found = served_file(name);
+    if (!found) throw HttpError(404, "not_found", "path", "there is nothing at this address");
     return tagged_response(request, fmt::format("\"{}\"", found->tag), found->type, found->bytes);
   }
   std::string layer_name(const HttpRequest& request, const Route& route) const {
@@ -623,6 +650,23 @@ class WritableService : public HttpService {
 };
 
 }  // namespace
+
+HttpResponse answer_of_graphs(const ServedWorld& world, Place place, std::string_view body,
+                              const Execution& execution) {
+  if (place == Place::check) {
+    return {.body = verdicts_json(judge_of(world, execution).judge(read_drawn_edges(body, execution), execution))};
+  }
+  const bool is_saved = place == Place::save_graph;
+  const RouteGraph graph = is_saved                     ? read_graph_json(body, execution)
+                           : place == Place::open_graph ? read_nav2_graph(body, execution)
+                                                        : asked_graph(world, body, execution);
+  if (!is_saved) judge_of(world, execution);  // or there are no such graphs
+  const std::vector<RouteEnds> ends = ends_of(graph);
+  const std::vector<EdgeVerdict> verdicts = judge_of(world, execution).judge(edges_of(graph, ends), execution);
+  if (!is_saved) return {.body = graph_json(graph, verdicts, execution)};
+  refuse_blocked(graph, verdicts);
+  return {.type = "application/geo+json", .body = nav2_graph_text(graph, ends, execution)};
+}
 
 std::unique_ptr<HttpService> world_service(const ServedWorld& world, const ServiceLimits& limits) {
   return std::make_unique<AnsweringService>(world, limits, nullptr);

@@ -10,17 +10,15 @@
 #include <numbers>
 #include <set>
 #include <tuple>
-#include <utility>
 
 #include "apps/serve/http/http_message.hpp"
-#include "core/base/error.hpp"
 #include "core/base/trigonometry.hpp"
 #include "core/plane/se2.hpp"
 #include "scenes/text/human_units.hpp"
 #include "solve/kept/export_roadmap.hpp"
 #include "solve/kinds/solve_steps.hpp"
-#include "verify/judges/effective_scene.hpp"
 #include "verify/judges/verify_point.hpp"
+#include "verify/judges/verify_price.hpp"
 #include "verify/judges/verify_turning.hpp"
 
 namespace warren::serve {
@@ -115,6 +113,7 @@ class Simplifying {
         around_(graph.nodes.size()),
         is_gone_(graph.nodes.size(), false) {
     for (std::size_t e = 0; e < ends_.size(); ++e) {
+      execution_.poll(e);
       const auto [from, to] = ends_[e];
       between_[{from, to}].push_back(e);
       around_[from].insert(to);
@@ -125,10 +124,7 @@ class Simplifying {
 
   RouteGraph made() {
     RouteGraph made = graph_;
-    for (const std::vector<std::size_t>& chain : chains()) {
-      execution_.check();
-      replace(chain, 0, chain.size() - 1);
-    }
+    for (const std::vector<std::size_t>& chain : chains()) replace(chain);
     made.nodes.clear();
     made.edges.clear();
     for (std::size_t v = 0; v < is_gone_.size(); ++v) {
@@ -193,8 +189,19 @@ class Simplifying {
     return chains;
   }
 
-  void replace(const std::vector<std::size_t>& chain, std::size_t first, std::size_t last) {
-    if (last - first < 2) return;
+  /// Part by part, for a chain may have as many as it has nodes; each costs its length.
+  void replace(const std::vector<std::size_t>& chain) {
+    std::vector<std::pair<std::size_t, std::size_t>> parts{{0, chain.size() - 1}};  // from node to node, the next last
+    while (!parts.empty()) {
+      execution_.check();
+      const auto [first, last] = parts.back();
+      parts.pop_back();
+      const std::size_t at = last - first < 2 ? last : replaced_or_cut(chain, first, last);
+      if (at < last) parts.insert(parts.end(), {{at, last}, {first, at}});
+    }
+  }
+  /// One edge takes the part's place; or else gives the node at which to cut it.
+  std::size_t replaced_or_cut(const std::vector<std::size_t>& chain, std::size_t first, std::size_t last) {
     const Vec2 a = graph_.nodes[chain[first]].at;
     const Vec2 b = graph_.nodes[chain[last]].at;
     std::size_t farthest = first + (last - first) / 2;
@@ -206,8 +213,7 @@ class Simplifying {
     const std::pair<std::size_t, std::size_t> joined = std::minmax(chain[first], chain[last]);
     const bool is_new = chain[first] != chain[last] && !around_[chain[first]].contains(chain[last]);
     if (most > within_ || !is_new || joined_.contains(joined) || (may_lead_ && !may_lead_(a, b))) {
-      replace(chain, first, farthest);
-      return replace(chain, farthest, last);
+      return farthest;
     }
     joined_.insert(joined);
     for (std::size_t i = first + 1; i < last; ++i) is_gone_[chain[i]] = true;
@@ -215,6 +221,7 @@ class Simplifying {
                                          chain.begin() + static_cast<std::ptrdiff_t>(last) + 1);
     join(there);
     join({there.rbegin(), there.rend()});
+    return last;
   }
 
   /// One edge for a chain, where it leads this way.
@@ -291,7 +298,6 @@ const ObstacleIndex* EdgeJudge::index(const Execution& execution) const {
 }
 
 double EdgeJudge::clearance_at(const EdgePlace& place, const Execution& execution) const {
-  if (state_size(robot_) > 3) throw UsageError("an arm has no place in the plane");
   if (!robot_.outline.empty()) {
     const Se2 pose{place.at.x, place.at.y, place.theta.value()};
     const PoseVerifyOptions options{.clearance = clearance_};

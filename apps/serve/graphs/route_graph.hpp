@@ -98,7 +98,7 @@ class EdgeJudge {
   /// Stopped.
   std::vector<EdgeVerdict> judge(const std::vector<DrawnEdge>& edges, const Execution& execution) const;
   /// Least distance between the body that stands there, in the room, and anything; infinite where there is nothing.
-  /// theta is there where the body's outline turns. Throws UsageError for arms, Stopped.
+  /// theta is there where the body's outline turns. No arm's. Throws Stopped.
   double clearance_at(const EdgePlace& place, const Execution& execution) const;
 
  private:

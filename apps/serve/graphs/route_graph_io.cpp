@@ -3,16 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <initializer_list>
 #include <limits>
 #include <map>
 
 #include "apps/serve/graphs/json_body_io.hpp"
 #include "apps/serve/graphs/route_graph.hpp"
 #include "apps/serve/http/http_message.hpp"
-#include "core/base/types.hpp"
 #include "core/plane/se2.hpp"
 
 namespace warren::serve {
@@ -74,10 +71,10 @@ void check_metadata(const OrderedJson& metadata, const std::string& where) {
 
 /// Does Nav2 take these properties' metadata and operations? Throws HttpError (400) for the first that it would not.
 void check_properties(const OrderedJson& properties, const std::string& where) {
-  const auto says = [&](const char* key) { return properties.contains(key) && !properties[key].is_null(); };
-  if (says("metadata")) check_metadata(properties["metadata"], where + ": metadata");
-  if (!says("operations")) return;
-  for (const OrderedJson& operation : properties["operations"]) {
+  if (const OrderedJson* metadata = member(properties, "metadata")) check_metadata(*metadata, where + ": metadata");
+  const OrderedJson* operations = member(properties, "operations");
+  if (operations == nullptr) return;
+  for (const OrderedJson& operation : *operations) {
     const std::string place = where + ": operations";
     for (const char* key : {"type", "trigger"}) {
       if (!operation.is_object() || !operation.contains(key) || !operation[key].is_string()) {
@@ -255,9 +252,7 @@ std::vector<DrawnEdge> read_drawn_edges(std::string_view text, const Execution& 
 }
 
 std::string verdicts_json(const std::vector<EdgeVerdict>& verdicts) {
-  JsonObject json;
-  json.add_json("edges", json_list_of(verdicts, ",\n", verdict_json));
-  return json.closed() + "\n";
+  return json_object("edges", JsonText{json_list_of(verdicts, ",\n", verdict_json)}) + "\n";
 }
 
 std::string graph_json(const RouteGraph& graph, const std::vector<EdgeVerdict>& verdicts, const Execution& execution) {

@@ -22,10 +22,8 @@
 #include <map>
 #include <new>
 #include <system_error>
-#include <utility>
 
 #include "apps/serve/http/beast_words.hpp"
-#include "core/base/error.hpp"
 #include "core/base/page_pool.hpp"
 #include "scenes/text/human_units.hpp"
 
@@ -60,6 +58,23 @@ using Clock = std::chrono::steady_clock;
 constexpr auto never = Clock::time_point::max();
 constexpr auto between_looks = std::chrono::milliseconds(50);
 
+using BeastResponse = http::response<http::string_body>;
+
+/// Beast's parser, but lines that are folded into the one before, which are obsolete and which proxies read otherwise,
+/// are refused.
+class RequestParser : public http::request_parser<http::string_body> {
+  void on_field_impl(http::field field, boost::beast::string_view name, boost::beast::string_view value,
+                     Code& code) override {
+    const char* begin = name.data() + name.size() + 1;  // behind the colon; a line's end follows
+    while (*begin == ' ' || *begin == '\t') ++begin;
+    if (begin != value.data()) {  // put together elsewhere, or begun on a later line
+      code = http::error::bad_value;
+    } else {
+      get().insert(field, name, value);
+    }
+  }
+};
+
 // One connection of the server, and what is worked on for it: data of the server's own thread, but for what a job's
 // task fills in.
 
@@ -79,8 +94,6 @@ struct Job {
 };
 
 struct Connection {
-  Connection(std::uint64_t number, Tcp::socket&& its_socket, const asio::ip::address& from, std::size_t buffer_bytes)
-      : id(number), socket(std::move(its_socket)), address(from), buffer(buffer_bytes) {}
   std::uint64_t id;
   Tcp::socket socket;
   asio::ip::address address;
@@ -122,6 +135,23 @@ std::vector<Tcp::acceptor> acceptors_at(const HttpPlace& place, asio::io_context
     acceptors.push_back(std::move(acceptor));
   }
   return acceptors;
+}
+
+/// Status and fields, those of every answer too; no body.
+BeastResponse beast_response(const HttpResponse& said) {
+  BeastResponse response(static_cast<http::status>(said.status), 11);
+  response.set(http::field::content_type, said.type);
+  response.set(
+      "Content-Security-Policy",
+      "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; connect-src 'self'; "
+      "base-uri 'none'; form-action 'none'; frame-ancestors 'none'");
+  response.set("X-Content-Type-Options", "nosniff");
+  response.set("Referrer-Policy", "no-referrer");
+  response.set("Cross-Origin-Opener-Policy", "same-origin");
+  response.set("Cross-Origin-Resource-Policy", "same-origin");
+  response.set(http::field::cache_control, "no-store");
+  for (const auto& [name, value] : said.fields) response.set(name, value);
+  return response;
 }
 
 Clock::time_point in(double seconds) {
@@ -251,8 +281,9 @@ class Connections : public HttpServer {
     socket.set_option(Tcp::no_delay(true), code);
     socket.non_blocking(true, code);
     const std::uint64_t id = next_connection_++;
-    auto& c = connections_[id] =
-        std::make_unique<Connection>(id, std::move(socket), peer.address(), limits_.head_bytes + 8192);
+    const std::size_t buffer_bytes = limits_.head_bytes + 8192;
+    auto& c = connections_[id] = std::unique_ptr<Connection>(
+        new Connection{id, std::move(socket), peer.address(), boost::beast::flat_buffer(buffer_bytes)});
     wait_for_request(*c);
   }
   bool has_place_for(const asio::ip::address& address) {
@@ -515,39 +546,12 @@ class Connections : public HttpServer {
 
 }  // namespace
 
-void RequestParser::on_field_impl(http::field field, boost::beast::string_view name, boost::beast::string_view value,
-                                  boost::beast::error_code& code) {
-  const char* begin = name.data() + name.size() + 1;  // behind the colon; a line's end follows
-  while (*begin == ' ' || *begin == '\t') ++begin;
-  if (begin != value.data()) {  // put together elsewhere, or begun on a later line
-    code = http::error::bad_value;
-  } else {
-    get().insert(field, name, value);
-  }
-}
-
 HttpError error_of_parser(const boost::system::error_code& code) {
   if (code == http::error::header_limit || code == http::error::buffer_overflow) {
     return {431, "head_too_large", "head", "at most 8,192 bytes of head are expected"};
   }
   if (code == http::error::body_limit) return {413, "body_too_large", "body", "the body is too large"};
   return {400, "bad_request", "head", fmt::format("no request of HTTP/1.1: {}", code.message())};
-}
-
-BeastResponse beast_response(const HttpResponse& said) {
-  BeastResponse response(static_cast<http::status>(said.status), 11);
-  response.set(http::field::content_type, said.type);
-  response.set(
-      "Content-Security-Policy",
-      "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; connect-src 'self'; "
-      "base-uri 'none'; form-action 'none'; frame-ancestors 'none'");
-  response.set("X-Content-Type-Options", "nosniff");
-  response.set("Referrer-Policy", "no-referrer");
-  response.set("Cross-Origin-Opener-Policy", "same-origin");
-  response.set("Cross-Origin-Resource-Policy", "same-origin");
-  response.set(http::field::cache_control, "no-store");
-  for (const auto& [name, value] : said.fields) response.set(name, value);
-  return response;
 }
 
 HttpRequest request_of(const BeastRequest& head) {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "apps/serve/page/served_files.hpp"
 
-#include <map>
-
 namespace warren::serve {
 namespace {
 
@@ -13,29 +11,24 @@ std::string_view type_of(std::string_view name) {
   return "text/html; charset=utf-8";
 }
 
-using Files = std::map<std::string_view, ServedFile>;
-
-Files all_files() {
-  Files files;
-#ifdef WARREN_LEAFLET
-  for (const std::span<const EmbeddedFile> folder : {service_page_files(), leaflet_files()}) {
-    for (const auto& file : folder) files[file.name] = {type_of(file.name), file.bytes, file.sha256.substr(0, 16)};
-  }
-#else
-  files["index.html"] = {type_of(".txt"),
-                         "This program was built without Leaflet (Debian: libjs-leaflet), so it shows no page. "
-                         "Programs ask /api/world and what docs/service.md says of it.\n",
-                         "without-leaflet"};
-#endif
-  return files;
-}
-
 }  // namespace
 
-const ServedFile* served_file(std::string_view name) {
-  static const Files files = all_files();
-  const auto found = files.find(name);
-  return found == files.end() ? nullptr : &found->second;
+std::optional<ServedFile> served_file(std::string_view name) {
+#ifdef WARREN_LEAFLET
+  for (const std::span<const EmbeddedFile> folder : {service_page_files(), leaflet_files()}) {
+    for (const auto& file : folder) {
+      if (file.name == name) return ServedFile{type_of(name), file.bytes, file.sha256.substr(0, 16)};
+    }
+  }
+#else
+  if (name == "index.html") {
+    return ServedFile{type_of(".txt"),
+                      "This program was built without Leaflet (Debian: libjs-leaflet), so it shows no page. "
+                      "Programs ask /api/world and what docs/service.md says of it.\n",
+                      "without-leaflet"};
+  }
+#endif
+  return std::nullopt;
 }
 
 }  // namespace warren::serve

@@ -2,6 +2,7 @@
 // The files of the page, which the build has put into the program: nothing is read from a disk.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -15,8 +16,8 @@ struct ServedFile {
   std::string_view tag;  ///< another one for other bytes
 };
 
-/// nullptr where there is none of that name. Without Leaflet, index.html says so.
-const ServedFile* served_file(std::string_view name);
+/// Nothing where there is none of that name. Without Leaflet, index.html says so.
+std::optional<ServedFile> served_file(std::string_view name);
 
 // What the build makes of folders (cmake/embed_files.cmake).
 std::span<const EmbeddedFile> service_page_files();

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <optional>
 
 #include "core/base/error.hpp"
 #include "core/search/search.hpp"

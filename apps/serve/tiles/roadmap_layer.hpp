@@ -12,8 +12,6 @@
 
 #include "apps/serve/tiles/web_tile.hpp"
 #include "core/base/items_by_key.hpp"
-#include "core/run/execution.hpp"
-#include "pictures/model/colors.hpp"
 #include "planners/graph/roadmap_arrays.hpp"
 #include "planners/lengths/core_graph.hpp"
 #include "solve/kept/roadmap_query.hpp"

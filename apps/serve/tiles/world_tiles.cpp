@@ -4,13 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
 #include "core/base/error.hpp"
 #include "core/plane/geometry.hpp"
-#include "parallel/chunks.hpp"
 #include "parallel/sort.hpp"
 #include "pictures/formats/raster.hpp"
 #include "solve/kept/lattice_roadmap.hpp"
@@ -319,7 +317,7 @@ class ShapeTiles : public WorldTiles {
         seams_(scene, execution) {}
 
   std::string draw(const TilePlace& place, const Execution& execution) const override {
-    Image image(TileGrid::pixels, TileGrid::pixels, colors::paper, execution);
+    Image image(TileGrid::pixels, TileGrid::pixels, execution);
     const OnTile on_tile = grid().on(place);
     const auto draw_side = [&](Vec2 a, Vec2 b) {
       image.draw_line(on_tile(a), on_tile(b), outline_pixels, colors::outline);
@@ -369,7 +367,7 @@ class ShapeTiles : public WorldTiles {
         if (!room.contains(on_tile.middle_of(i)) || inside.pixels()[i] >= 128) tile.bytes[i] = 0;
       }
     };
-    return {std::move(at), true, std::move(leave_out)};
+    return {std::move(at), std::move(leave_out)};
   }
 
  private:
@@ -428,13 +426,13 @@ std::string ClearanceLayer::draw(const TilePlace& place, const Execution& execut
   PixelTile tile;
   const OnTile on_tile = tiles_.grid().on(place);
   if (on_tile.pixel <= tiles_.largest_pixel_of_distances()) {
-    if (distances_.are_dear) {
+    if (distances_.leave_out) {
       draw_between(tile, on_tile, execution);
+      distances_.leave_out(tile, on_tile, execution);
     } else {
       for_each_index(tile.bytes.size(), rows_a_chunk * row_pixels, execution,
                      [&](std::size_t i) { tile.bytes[i] = ink_of(distances_.at(on_tile.middle_of(i))); });
     }
-    if (distances_.leave_out) distances_.leave_out(tile, on_tile, execution);
   }
   return png_of_inks(tile, step_inks_and(too_near_ink), std::array{step_opacity}, execution);
 }

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "apps/serve/tiles/web_tile.hpp"
-#include "core/run/execution.hpp"
 #include "planners/lengths/core_graph.hpp"
 #include "scenes/scene/scene.hpp"
 
@@ -19,8 +18,8 @@ namespace warren::serve {
 struct PlaceDistances {
   /// No number inside of cells that are blocked and outside of mazes and maps.
   std::function<double(Vec2)> at;
-  bool are_dear = false;  ///< is one a pixel too many?
-  /// Takes out what lies inside of shapes or outside of the world; none: at() does. Throws Stopped.
+  /// Where one a pixel would be too many: takes out what lies inside of shapes or outside of the world. None: at() is
+  /// cheap and does that. Throws Stopped.
   std::function<void(PixelTile&, const OnTile&, const Execution&)> leave_out = {};
 };
 

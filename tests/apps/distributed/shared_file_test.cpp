@@ -268,7 +268,7 @@ TEST(SharedFile, ARankThatReadsOtherWallsIsRefused) {
 
 TEST(SharedWorld, FilesThatDifferHaveOtherFacts) {
   const TemporaryDirectory directory;
-  const auto facts = [&](const char* file) { return shared_world(directory.file(file), {}).facts; };
+  const auto facts = [&](const char* file) { return shared_world(directory.file(file), {}).second; };
   const MazeOptions maze{300, 270, 1, MazeAlgorithm::kruskal};
   files_of({maze}, directory);
   const std::string bytes = directory.read("a.maze");

@@ -9,8 +9,7 @@ namespace warren::studies {
 namespace {
 
 TEST(CellsPassed, ALegTakesAsManyStepsAsItsLongerSide) {
-  const Raster raster{{10.0, 20.0}, 2.0};
-  const auto count = [&](const std::vector<Vec2>& path) { return cells_passed(path, raster); };
+  const auto count = [](const std::vector<Vec2>& path) { return cells_passed(path, {10.0, 20.0}, 2.0); };
   EXPECT_EQ(count({}), 0U);
   EXPECT_EQ(count({{12, 22}}), 1U);
   EXPECT_EQ(count({{12, 22}, {12.4, 22.4}}), 1U);        // the same cell

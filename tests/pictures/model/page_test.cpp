@@ -45,7 +45,7 @@ Box place_of(const PlacedText& text) {
 
 std::vector<std::string> labels_of(const Page& page) {
   std::vector<std::string> labels;
-  for (const PlacedLegend& placed : page.legend) labels.push_back(placed.entry.label);
+  for (const LegendEntry& entry : page.legend) labels.push_back(entry.label);
   return labels;
 }
 

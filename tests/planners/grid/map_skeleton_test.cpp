@@ -158,7 +158,7 @@ TEST(SkeletonPlan, FindsAPathWhereverTheCellsConnectAndTheWidestIfAsked) {
     const Cell goal{25, 19};
     const bool joined = std::isfinite(grid_oracle::shortest(map, start, goal, Diagonal::none));
     for (const auto objective : {AxisObjective::length, AxisObjective::clearance}) {
-      const SkeletonPath path = plan_on_skeleton(map, start, goal, {.objective = objective}, {});
+      const SkeletonPath path = plan_on_skeleton({map, 0.0, {}}, start, goal, {.objective = objective}, {});
       ASSERT_EQ(path.outcome == Outcome::solved, joined);
       if (!joined) continue;
       ++solved;
@@ -189,8 +189,9 @@ TEST(SkeletonPlan, GoesRoundTheWideWayForClearanceAndStraightForLength) {
   Bitmap map(21, 21);
   map.set_run(4, 0, 17);
   map.clear(8, 4);
-  const SkeletonPath near = plan_on_skeleton(map, {8, 1}, {8, 8}, {}, {});
-  const SkeletonPath wide = plan_on_skeleton(map, {8, 1}, {8, 8}, {.objective = AxisObjective::clearance}, {});
+  const SkeletonPath near = plan_on_skeleton({map, 0.0, {}}, {8, 1}, {8, 8}, {}, {});
+  const SkeletonPath wide =
+      plan_on_skeleton({map, 0.0, {}}, {8, 1}, {8, 8}, {.objective = AxisObjective::clearance}, {});
   ASSERT_EQ(near.outcome, Outcome::solved);
   ASSERT_EQ(wide.outcome, Outcome::solved);
   EXPECT_EQ(near.clearance, 0.5);
@@ -202,14 +203,13 @@ TEST(SkeletonPlan, DiscsKeepTheirDistanceAndBlockedEndsAreNamed) {
   Bitmap map(21, 21);
   map.set_run(4, 0, 17);
   map.clear(8, 4);
-  const SkeletonOptions disc{.radius = 1.2};
-  const SkeletonPath path = plan_on_skeleton(map, {8, 1}, {8, 8}, disc, {});
+  const SkeletonPath path = plan_on_skeleton({map, 1.2, {}}, {8, 1}, {8, 8}, {}, {});
   ASSERT_EQ(path.outcome, Outcome::solved);
   EXPECT_GE(path.clearance, 1.2);
-  EXPECT_EQ(plan_on_skeleton(map, {8, 1}, {8, 8}, {.radius = 2.2}, {}).outcome, Outcome::start_blocked);
-  EXPECT_EQ(plan_on_skeleton(map, {4, 10}, {8, 5}, {.radius = 2.2}, {}).outcome, Outcome::goal_blocked);
+  EXPECT_EQ(plan_on_skeleton({map, 2.2, {}}, {8, 1}, {8, 8}, {}, {}).outcome, Outcome::start_blocked);
+  EXPECT_EQ(plan_on_skeleton({map, 2.2, {}}, {4, 10}, {8, 5}, {}, {}).outcome, Outcome::goal_blocked);
   for (std::uint32_t x = 17; x < 21; ++x) map.set(x, 4);
-  const SkeletonPath sealed = plan_on_skeleton(map, {8, 1}, {8, 8}, disc, {});
+  const SkeletonPath sealed = plan_on_skeleton({map, 1.2, {}}, {8, 1}, {8, 8}, {}, {});
   EXPECT_EQ(sealed.outcome, Outcome::not_connected);
   EXPECT_GT(sealed.separation.start_size, 0U);
 }

@@ -90,7 +90,7 @@ TEST(RouteSections, AnIndexOfViewsAnswersTheSame) {
     const RouteIndex built(test::maze_passages(maze), {}, {});
     const Copies copies(built);
     const RouteIndex viewed = route_index_of({maze.rows, maze.cols}, copies.sections);
-    EXPECT_EQ(viewed.bytes(), built.bytes());
+    EXPECT_EQ(bytes_of(viewed), bytes_of(built));
     RouteQuery expected(built);
     RouteQuery found(viewed);
     for (CellId a = 0; a < maze.rows * maze.cols; a += 373) {

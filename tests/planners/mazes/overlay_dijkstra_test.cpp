@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The oracle relaxes the edges of a random overlay until nothing changes.
-#include "planners/mazes/overlay_search.hpp"
+#include "planners/mazes/overlay.hpp"
 
 #include <gtest/gtest.h>
 

@@ -157,7 +157,7 @@ TEST(WallPartition, NeitherFormNorBandsChangeWhatATileHolds) {
         for (std::size_t tile = 0; tile < grid.count(); tile += 5) {
           LooseTile loose;
           std::vector<Segment> looked_up;
-          found.look_up(tile, loose, {}).for_each(grid, tile, [&](const Segment& w) { looked_up.push_back(w); });
+          found.look_up(tile, loose).for_each(grid, tile, [&](const Segment& w) { looked_up.push_back(w); });
           ASSERT_EQ(looked_up, walls_of(expected, grid, tile)) << tile;
         }
       }

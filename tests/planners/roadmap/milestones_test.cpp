@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/roadmap/milestones.hpp"
+#include "planners/roadmap/sampler.hpp"
 
 #include <gtest/gtest.h>
 

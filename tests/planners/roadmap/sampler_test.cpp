@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "planners/roadmap/milestones.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "tests/refusals.hpp"
 #include "worlds/plane/maze_world.hpp"

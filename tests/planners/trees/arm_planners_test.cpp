@@ -13,7 +13,7 @@
 #include "tests/seeds.hpp"
 #include "verify/judges/verify_arm.hpp"
 #include "worlds/arms/arm_world.hpp"
-#include "worlds/arms/puma560.hpp"
+#include "worlds/arms/serial_chain.hpp"
 
 namespace warren {
 namespace {

@@ -144,7 +144,7 @@ TEST(RrtConnect, GoesAStepOnTowardsItsSampleWhereThereAreDomains) {
 TEST(Rrt, SolvesScatteredScenesWithEverySampler) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const Scene scene = body_scenes::scattered(seed);
-    const Se2World world(scene, hook, {.clearance = 0.02});
+    const Se2World world(scene, hook, 0.02);
     auto query = world.make_query();
     std::vector<Se2> ends;
     for (std::uint64_t i = 0; ends.size() < 2; ++i) {

@@ -8,7 +8,7 @@
 #include "solve/kinds/planned_worlds.hpp"
 #include "tests/worlds/poses/body_scenes.hpp"
 #include "worlds/arms/arm_world.hpp"
-#include "worlds/arms/puma560.hpp"
+#include "worlds/arms/serial_chain.hpp"
 #include "worlds/plane/maze_world.hpp"
 #include "worlds/poses/car_world.hpp"
 #include "worlds/poses/se2_world.hpp"

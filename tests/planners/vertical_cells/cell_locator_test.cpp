@@ -55,7 +55,7 @@ TEST(CellLocator, FindsTheCellsOfTheShearedPlane) {
     const CellDecomposition cells = decompose(world, points, {});
     const PolygonIndex polygons(world.polygons, {});
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const CellPlace place = locate(cells, world, points[i]);
+      const CellPlace place = locate(cells, world, points[i], {});
       const bool blocked = !cells.box.contains(points[i]) || polygons.polygon_around(points[i]);
       EXPECT_EQ(place.blocked, blocked) << points[i].x << ' ' << points[i].y;
       EXPECT_EQ(place.cells, cells_around(cells, world, points[i])) << points[i].x << ' ' << points[i].y;

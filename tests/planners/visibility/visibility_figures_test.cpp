@@ -11,7 +11,7 @@
 #include <string>
 
 #include "planners/visibility/visibility_graph.hpp"
-#include "scenes/files/scene_io.hpp"
+#include "scenes/files/plane_formats_io.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "tests/paths.hpp"
 

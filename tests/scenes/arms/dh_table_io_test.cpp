@@ -7,7 +7,7 @@
 #include "tests/refusals.hpp"
 #include "tests/scenes/files/temporary_directory.hpp"
 #include "tests/worlds/arms/arm_oracle.hpp"
-#include "worlds/arms/puma560.hpp"
+#include "worlds/arms/serial_chain.hpp"
 
 namespace warren {
 namespace {

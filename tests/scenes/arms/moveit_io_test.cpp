@@ -11,8 +11,8 @@
 
 #include "core/base/error.hpp"
 #include "core/base/rng.hpp"
+#include "scenes/files/plane_formats_io.hpp"
 #include "scenes/files/read_world_io.hpp"
-#include "scenes/files/scene_io.hpp"
 #include "tests/refusals.hpp"
 #include "tests/scenes/files/temporary_directory.hpp"
 #include "tests/seeds.hpp"
@@ -509,6 +509,8 @@ TEST(MoveIt, RefusesWhatItDoesNotRead) {
       {with(scene_text, "type: box", "type: cone"), "a.yaml:29: " + cone},
       {with(scene_text, "[0.2, 0.4, 0.6]", "[0.2, 0.4]"), "a.yaml:29: `dimensions` must be 3 numbers"},
       {with(scene_text, "[0.2, 0.4, 0.6]", "[0.2, -0.4, 0.6]"), "a.yaml:29: `obox`: half the sides"},
+      {with(scene_text, "[0.2, 0.05]", "[-0.2, 0.05]"),
+       "a.yaml:22: a cylinder's height must be at least 0 (found: -0.2)"},
       {with(scene_text, "[0.2, 0.4, 0.6]", "[0.2, x, 0.6]"),
        "a.yaml:29: `dimensions` must be a number of at most 1e60 (found: x)"},
       {with(scene_text, "[0.2, 0.4, 0.6]", "[0.2, .nan, 0.6]"), "a.yaml:29: `dimensions` must be a number"},

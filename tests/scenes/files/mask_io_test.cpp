@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scenes/files/ros_map_io.hpp"
+#include "scenes/files/plane_formats_io.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,6 @@
 
 #include "core/base/error.hpp"
 #include "scenes/files/read_world_io.hpp"
-#include "scenes/files/scene_io.hpp"
 #include "tests/refusals.hpp"
 #include "tests/scenes/files/temporary_directory.hpp"
 #include "tests/seeds.hpp"

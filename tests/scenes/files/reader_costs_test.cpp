@@ -15,8 +15,6 @@
 #include "scenes/files/image_io.hpp"
 #include "scenes/files/npy_io.hpp"
 #include "scenes/files/plane_formats_io.hpp"
-#include "scenes/files/ros_map_io.hpp"
-#include "scenes/files/scene_io.hpp"
 #include "tests/memory_limit.hpp"
 #include "tests/scenes/files/test_images.hpp"
 #include "tests/seeds.hpp"

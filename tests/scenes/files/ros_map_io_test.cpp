@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scenes/files/ros_map_io.hpp"
+#include "scenes/files/plane_formats_io.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scenes/files/scene_io.hpp"
+#include "scenes/files/plane_formats_io.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/rng.hpp"
-#include "scenes/arms/solid_text.hpp"
+#include "scenes/arms/arm_files_io.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "scenes/text/scene_text.hpp"
 #include "tests/refusals.hpp"
@@ -178,8 +178,8 @@ TEST(SceneText, WritesSolidsOfNoFileToTheirLastDigits) {
   for (int i = 0; i < 200; ++i) {
     const auto random = [&](int k) { return std::remainder(0.7548776662466927 * (17 * i + k + 1), 1.0); };
     Solid solid{.kind = i % 2 == 0 ? SolidKind::box : SolidKind::capsule, .half = {0.25, 0.5, 0.75}};
-    solid.pose.translation() = Vec3(random(0), random(1), random(2));
-    solid.pose.linear() = turn_of_quaternion(random(3), random(4), random(5), random(6));
+    solid.pose =
+        pose_of_numbers(std::array{random(0), random(1), random(2), random(3), random(4), random(5), random(6)});
     if (i % 2 == 1) solid.half.y() = 0.0;
     const TemporaryDirectory directory;
     Scene scene;

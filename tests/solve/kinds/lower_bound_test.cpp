@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Lower bounds are none that a path goes below, do not depend on where and how a world lies, and are told where they
 // mean something.
-#include "solve/kinds/lower_bound.hpp"
+#include "solve/kinds/solve_steps.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

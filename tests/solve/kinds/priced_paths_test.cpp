@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -130,6 +131,13 @@ TEST(PricedPaths, UnknownCellsAreFreeAtAPrice) {
   ASSERT_TRUE(answer.price);
   EXPECT_GE(answer.price->areas, 2.0 - 1e-9);  // a cell across, at least
   EXPECT_TRUE(verify(scene, answer).verified);
+  // Who says that they are blocked is not overruled by the answer, nor by the file.
+  Question blocked;
+  blocked.prices.unknown = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(verify(scene, recorded(answer), blocked).verified);
+  scene.prices.unknown = 3.0;
+  EXPECT_TRUE(solve(scene, {}, by(PlannerKind::prm)).verified);
+  EXPECT_FALSE(solve(scene, blocked, by(PlannerKind::prm)).verified);
 }
 
 }  // namespace

@@ -11,7 +11,6 @@
 #include "tools/words/command.hpp"
 #include "tools/words/help.hpp"
 #include "tools/words/option_values.hpp"
-#include "tools/words/unknown_words.hpp"
 
 namespace warren::test {
 namespace {

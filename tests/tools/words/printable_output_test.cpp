@@ -8,7 +8,7 @@
 #include "core/base/error.hpp"
 #include "scenes/text/input_file_io.hpp"
 #include "tests/tools/process.hpp"
-#include "tools/screen/exit_code.hpp"
+#include "tools/screen/run_of_verb.hpp"
 
 namespace warren::test {
 namespace {

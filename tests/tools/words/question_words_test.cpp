@@ -38,13 +38,14 @@ TEST(QuestionWords, PricesAreRead) {
   EXPECT_EQ(prices.masks[4].factor, 7.0);
   EXPECT_EQ(prices.unknown, 2.0);
   EXPECT_FALSE(question_of({"--clearance-price", "3"}).prices.clearance->reach);
-  EXPECT_FALSE(question_of({"--unknown", "blocked"}).prices.unknown);
+  EXPECT_FALSE(question_of({"--unknown", "blocked"}).prices.opens_unknown());
 }
 
 TEST(QuestionWords, GoalsAndTheirRulesAreRead) {
   const Question several = question_of({"--goal", "1,2", "--goal", "3,4", "--goal", "5,6"});
   EXPECT_EQ(several.goal, (std::vector<double>{1, 2}));
   EXPECT_EQ(question_of({"--goal", "1e-400,+2"}).goal, (std::vector<double>{0, 2}));
+  EXPECT_FALSE(std::signbit(question_of({"--start", "1,-0"}).start[1]));
   EXPECT_EQ(several.rule.others, (std::vector<std::vector<double>>{{3, 4}, {5, 6}}));
   EXPECT_TRUE(std::isinf(*question_of({"--goal-tolerance", "inf"}).rule.tolerance));
   const GoalRule near = question_of({"--goal-tolerance", "0.5,90deg"}).rule;

@@ -25,7 +25,7 @@
 #include "verify/judges/verify_point.hpp"
 #include "verify/judges/verify_turning.hpp"
 #include "verify/near/obstacle_index.hpp"
-#include "worlds/arms/puma560.hpp"
+#include "worlds/arms/serial_chain.hpp"
 
 namespace warren::any_number {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "verify/judges/judged_input.hpp"
+#include "verify/judges/leg_reports.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include "verify/judges/verify_arm.hpp"
 #include "verify/judges/verify_point.hpp"
 #include "verify/judges/verify_turning.hpp"
-#include "worlds/arms/puma560.hpp"
+#include "worlds/arms/serial_chain.hpp"
 #include "worlds/rasters/lattice_polygons.hpp"
 
 namespace warren {

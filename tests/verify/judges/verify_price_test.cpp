@@ -9,9 +9,8 @@
 #include "core/base/rng.hpp"
 #include "tests/seeds.hpp"
 #include "tests/worlds/prices/priced_maps.hpp"
-#include "verify/judges/effective_scene.hpp"
 #include "verify/judges/verify_point.hpp"
-#include "worlds/prices/effective_map.hpp"
+#include "worlds/prices/map_prices.hpp"
 
 namespace warren {
 namespace {

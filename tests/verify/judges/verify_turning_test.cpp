@@ -132,7 +132,7 @@ TEST(VerifySe2, AgreesWithTheFastWorldAndWithSampledDistances) {
     const Scene scene = body_scenes::scattered(seed);
     const auto& outline = seed % 2 == 0 ? kite : hook;
     const double clearance = seed % 3 == 0 ? 0.05 : 0.0;
-    const Se2World world(scene, outline, {.clearance = clearance});
+    const Se2World world(scene, outline, clearance);
     auto query = world.make_query();
     for (std::uint64_t i = 0; i < 60; ++i) {
       const Se2 a = body_scenes::random_pose(seed, 2 * i);

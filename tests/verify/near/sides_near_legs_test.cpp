@@ -65,7 +65,7 @@ TEST(PathSurroundings, HoldEverySideThatMeetsABox) {
     SCOPED_TRACE(seed);
     const Scene scene = scattered_sides(seed);
     const Obstacles obstacles(scene);
-    PathSurroundings around(scene, obstacles, nullptr, {});
+    PathSurroundings around(scene, nullptr, {});
     const std::vector<Box> boxes = random_boxes(seed, 100, 60);
     around.file(boxes, {.threads = 1 + static_cast<unsigned>(seed % 3)});
     std::vector<NearSide> sides;
@@ -99,8 +99,7 @@ TEST(PathSurroundings, AreTheBordersOfAMapsCells) {
       const bool inside = x >= 0 && y >= 0 && x < map.width() && y < map.height();
       return !inside || map.blocked.holds(x, y);
     };
-    const Obstacles obstacles(scene);
-    const PathSurroundings around(scene, obstacles, nullptr, {});
+    const PathSurroundings around(scene, nullptr, {});
     std::vector<NearSide> sides;
     std::vector<Box> boxes = random_boxes(seed, map.width(), map.height());
     boxes.push_back({{-5, -5}, {300, 300}});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "verify/near/straight_runs.hpp"
+#include "verify/near/sides_near_legs.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The oracle is the maze that was written.
-#include "verify/streamed/looked_up_walls.hpp"
+#include "verify/streamed/verify_cells.hpp"
 
 #include <gtest/gtest.h>
 

@@ -16,7 +16,6 @@
 #include "core/base/rng.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "tests/seeds.hpp"
-#include "verify/streamed/looked_up_walls.hpp"
 
 namespace warren {
 namespace {

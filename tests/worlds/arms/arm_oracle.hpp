@@ -13,7 +13,7 @@
 
 #include "core/base/rng.hpp"
 #include "scenes/scene/scene.hpp"
-#include "worlds/arms/puma560.hpp"
+#include "worlds/arms/serial_chain.hpp"
 
 namespace warren::arm_oracle {
 

@@ -11,7 +11,7 @@
 #include "scenes/files/read_world_io.hpp"
 #include "tests/seeds.hpp"
 #include "tests/worlds/arms/arm_oracle.hpp"
-#include "worlds/arms/puma560.hpp"
+#include "worlds/arms/serial_chain.hpp"
 
 namespace warren {
 namespace {
@@ -243,7 +243,7 @@ TEST(ArmWorld, AnArmThatWasAskedBeforeHidesNoLink) {
 TEST(ArmWorld, PosturesBeyondALimitAreBlocked) {
   const ArmWorld world({}, model_of(puma560_table(), 0.05, false), {});
   auto query = world.make_query();
-  for (std::size_t j = 0; j < world.variable_count(); ++j) {
+  for (std::size_t j = 0; j < world.unit_dimension(); ++j) {
     for (const double beyond : {-1e-6, 1e-6}) {
       JointState q = world.at_unit({0.5, 0.5, 0.5, 0.5, 0.5, 0.5});
       EXPECT_TRUE(world.is_free(q, query));

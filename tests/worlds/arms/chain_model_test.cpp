@@ -7,7 +7,6 @@
 #include "tests/seeds.hpp"
 #include "tests/worlds/arms/arm_oracle.hpp"
 #include "worlds/arms/arm_kinematics.hpp"
-#include "worlds/arms/puma560.hpp"
 
 namespace warren {
 namespace {

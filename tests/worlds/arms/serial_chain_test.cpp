@@ -6,7 +6,6 @@
 #include "core/base/error.hpp"
 #include "tests/refusals.hpp"
 #include "tests/worlds/arms/arm_oracle.hpp"
-#include "worlds/arms/puma560.hpp"
 
 namespace warren {
 namespace {

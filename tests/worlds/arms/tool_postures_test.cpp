@@ -4,7 +4,7 @@
 
 #include "tests/seeds.hpp"
 #include "tests/worlds/arms/arm_oracle.hpp"
-#include "worlds/arms/puma560.hpp"
+#include "worlds/arms/serial_chain.hpp"
 
 namespace warren {
 namespace {

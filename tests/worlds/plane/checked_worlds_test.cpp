@@ -4,7 +4,7 @@
 
 #include "core/base/error.hpp"
 #include "tests/refusals.hpp"
-#include "worlds/plane/obstacles_at_fixed_angle.hpp"
+#include "worlds/plane/polygon_world.hpp"
 #include "worlds/poses/car_world.hpp"
 #include "worlds/poses/obstacle_tree.hpp"
 #include "worlds/poses/se2_world.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/plane/obstacles_at_fixed_angle.hpp"
+#include "worlds/plane/polygon_world.hpp"
 
 #include <gtest/gtest.h>
 

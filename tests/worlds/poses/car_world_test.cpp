@@ -133,7 +133,8 @@ TEST(CarWorld, NoPointOfTheBodyGoesFartherThanItsPace) {
         }
         farthest = std::max(farthest, gone);
       }
-      const double bound = world.body().pace(curve.piece(i).steer) * curve.piece_length(i);
+      const double bound =
+          pace_of(curve.piece(i).steer, world.outline(), world.turning_radius()) * curve.piece_length(i);
       EXPECT_LE(farthest, bound * (1 + 1e-9) + 1e-9);
       EXPECT_GE(farthest, bound * (1 - 1e-3) - 1e-9);
       begin += curve.piece_length(i);

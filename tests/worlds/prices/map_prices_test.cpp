@@ -12,7 +12,6 @@
 #include "tests/seeds.hpp"
 #include "tests/worlds/prices/priced_maps.hpp"
 #include "worlds/plane/grid_world.hpp"
-#include "worlds/prices/effective_map.hpp"
 
 namespace warren {
 namespace {

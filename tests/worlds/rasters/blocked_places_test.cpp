@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/rasters/convex_pieces.hpp"
+#include "worlds/rasters/lattice_polygons.hpp"
 
 #include <gtest/gtest.h>
 
@@ -66,7 +66,7 @@ TEST(FreePlaces, AreThoseOfAConvexBodyAtThatHeading) {
 TEST(FreePlaces, KeepTheClearanceAndTheBounds) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     SCOPED_TRACE(seed);
-    const Se2World world(scene_of_hulls(seed), body_scenes::kite, {.clearance = 0.2});
+    const Se2World world(scene_of_hulls(seed), body_scenes::kite, 0.2);
     auto query = world.make_query();
     const Se2 pose{0, 0, 6.0 * uniform(seed, 0, 78)};
     const PlaceGrid free = world.free_places(pose);

@@ -11,7 +11,6 @@
 #include "tests/seeds.hpp"
 #include "verify/judges/verify_point.hpp"
 #include "verify/judges/verify_turning.hpp"
-#include "worlds/rasters/convex_pieces.hpp"
 #include "worlds/rasters/lattice_polygons.hpp"
 
 namespace warren {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/serve/api/route.hpp"
+#include "apps/serve/api/world_service.hpp"
 
 #include <gtest/gtest.h>
 

@@ -541,8 +541,8 @@ TEST(WorldService, ThePageIsInTheProgram) {
 TEST(WorldService, AllAddressesOfPageAndInterfaceAreRelativeSoThatItMayLieBelowAnyPath) {
   for (const char* name : {"index.html", "ask.js", "clearance.js", "controls.js", "draw.js", "graph.js",
                            "graph_editor.js", "heading.js", "layers.js", "measure.js", "sweep.js", "world.js"}) {
-    const ServedFile* const file = served_file(name);
-    if (file == nullptr) continue;  // without Leaflet
+    const auto file = served_file(name);
+    if (!file) continue;  // without Leaflet
     for (const char* absolute : {"\"/api", "href=\"/", "src=\"/", "fetch(\"/", "'/"}) {
       EXPECT_EQ(file->bytes.find(absolute), std::string_view::npos) << name << " " << absolute;
     }
