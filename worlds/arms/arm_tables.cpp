@@ -438,9 +438,10 @@ class ArmBuilder {
 /// Of numbers, or of structs of nothing but numbers, in floats.
 template <class From, class To>
 void copy_numbers(const std::vector<From>& from, std::vector<To>& to) {
+  constexpr std::size_t count = sizeof(From) / sizeof(double);  // NOLINT(bugprone-sizeof-expression): of numbers 1
   for (const From& some : from) {
-    const auto numbers = std::bit_cast<std::array<double, sizeof(From) / sizeof(double)>>(some);
-    std::array<float, sizeof(To) / sizeof(float)> floats;
+    const auto numbers = std::bit_cast<std::array<double, count>>(some);
+    std::array<float, count> floats;
     std::transform(numbers.begin(), numbers.end(), floats.begin(), [](double x) { return static_cast<float>(x); });
     to.push_back(std::bit_cast<To>(floats));
   }
