@@ -93,7 +93,8 @@ RawVector<std::uint64_t> check_edges(const W& world, std::span<const typename W:
   const std::size_t n = graph.vertex_count();
   const std::size_t words = edge_state_words(graph.targets().size());
   execution.reserve(3 * words * sizeof(std::uint64_t));
-  const RawVector<std::uint64_t> nothing(words, 0);
+  RawVector<std::uint64_t> nothing;
+  if (before.empty()) assign_polled(nothing, words, std::uint64_t{0}, [&] { execution.check(); });
   const SharedEdgeStates answers(before.empty() ? std::span<const std::uint64_t>(nothing) : before);
   std::vector<Counters> done(chunk_count(n, grain));
   for_chunks(n, grain, execution, [&](Range r) {

@@ -80,6 +80,8 @@ struct Prices {
   bool empty() const { return !clearance && areas.empty() && masks.empty() && keep_out.empty() && !opens_unknown(); }
   /// May a path lead over unknown cells?
   bool opens_unknown() const { return unknown && *unknown != std::numeric_limits<double>::infinity(); }
+  /// What a metre over them costs, where one may; else 1.
+  double unknown_factor() const { return opens_unknown() ? *unknown : 1.0; }
 };
 
 /// What a path costs beyond its length, part by part; all in the world's unit, >= 0.

@@ -121,7 +121,7 @@ Fact prices_fact(const Prices& prices) {
   if (!prices.areas.empty()) add(counted(prices.areas.size(), "area", "areas"));
   if (!prices.masks.empty()) add(counted(prices.masks.size(), "mask", "masks"));
   if (!prices.keep_out.empty()) add(counted(prices.keep_out.size(), "forbidden area", "forbidden areas"));
-  if (prices.unknown) add(fmt::format("unknown {}", rounded_text(*prices.unknown)));
+  if (prices.opens_unknown()) add(fmt::format("unknown {}", rounded_text(*prices.unknown)));
   return {"prices", std::move(text), json_list(std::span<const std::string>(price_lines(prices)), ", ")};
 }
 

@@ -41,7 +41,7 @@ class PosePrices {
   PosePrices(const Scene& scene, const Prices& prices, double kept)
       : map_(scene.map ? &*scene.map : nullptr),
         areas_(prices),
-        unknown_(map_ != nullptr && !map_->unknown.empty() ? prices.unknown.value_or(1.0) : 1.0),
+        unknown_(map_ != nullptr && !map_->unknown.empty() ? prices.unknown_factor() : 1.0),
         kept_(kept) {
     if (prices.clearance && prices.clearance->price > 0.0) {
       price_ = prices.clearance->price;

@@ -75,7 +75,7 @@ AskedWords words_in(const Prices& prices) {
   }
   add(!prices.keep_out.empty(), AskedWord::keep_out);
   add(prices.opens_unknown(), AskedWord::unknown);
-  add(prices.opens_unknown() && *prices.unknown > 1.0, AskedWord::unknown_factor);
+  add(prices.unknown_factor() > 1.0, AskedWord::unknown_factor);
   return words;
 }
 
@@ -164,7 +164,7 @@ void check_asked(const Scene& scene, const Question& question) {
     }
   }
   check_goal_rule(question.rule);
-  if ((question.prices.opens_unknown() || scene.prices.unknown) && !scene.map) {
+  if ((question.prices.opens_unknown() || scene.prices.opens_unknown()) && !scene.map) {
     const std::string said = question.prices.opens_unknown() ? "@unknown" : scene.source + ": its line 'unknown'";
     throw UsageError(fmt::format("{}: only maps have unknown cells, and {} is none", said, scene.source));
   }

@@ -56,6 +56,8 @@ TEST(CarOnLattice, DrivesThroughADoorThatIsWideEnoughAndIsVerified) {
       EXPECT_LE(*answer.lower_bound, answer.length);
       EXPECT_FALSE(answer.price) << "nobody asked";
       EXPECT_FALSE(answer.improvements.empty());
+      EXPECT_GT(answer.counters.edges_free, 0U);
+      EXPECT_LT(answer.counters.edges_free, answer.counters.edges_checked) << "the door's posts are in the way of some";
     }
   }
 }

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Arms that a URDF describes: solved, judged, kept, timed, told, refused.
+#include <sys/stat.h>
+
 #include <cmath>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <thread>
 
 #include "tests/tools/process.hpp"
 
@@ -602,6 +606,16 @@ TEST_F(SolveUrdf, InfoTellsWhatIsInIt) {
   for (const char* said : {"base: turns without end", "slide: slides 0 to 0.2 m", "moving joints"}) {
     EXPECT_NE(outcome.out.find(said), std::string::npos) << outcome.out;
   }
+}
+
+TEST_F(SolveUrdf, InfoReadsAPipeOnce) {
+  const std::string pipe = folder_.path("pipe");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  std::thread writer([&] { std::ofstream(pipe) << crane_urdf; });
+  const Outcome outcome = run({"info", "-"}, pipe);
+  writer.join();
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("slide: slides 0 to 0.2 m"), std::string::npos) << outcome.out;
 }
 
 TEST_F(SolveUrdf, SaysWhatIsWrongInOneLine) {

@@ -145,7 +145,7 @@ class ClosedCells {
 };
 
 void restrict_map(OccupancyMap& map, const Prices& prices, const Execution& execution) {
-  if (prices.unknown) map.blocked.remove(map.unknown, [&] { execution.check(); });
+  if (prices.opens_unknown()) map.blocked.remove(map.unknown, [&] { execution.check(); });
   ClosedCells closed(map, execution);
   std::vector<Vec2> corners;
   for (const KeepOut& area : prices.keep_out) {
@@ -226,7 +226,7 @@ std::optional<Scene> effective_scene(const Scene& scene, const Prices& prices, c
   for (const PriceMask& mask : prices.masks) {
     if (!mask.read) throw InputError(mask.file, "this mask has not been read");
   }
-  const bool opens = prices.unknown && scene.map && !scene.map->unknown.empty();
+  const bool opens = prices.opens_unknown() && scene.map && !scene.map->unknown.empty();
   const auto blocks = [](const PriceMask& mask) { return blocked_values(mask).any(); };
   if (!opens && prices.keep_out.empty() && std::none_of(prices.masks.begin(), prices.masks.end(), blocks)) {
     return std::nullopt;
@@ -261,7 +261,7 @@ void add_grid_lines(Vec2 from, Vec2 by, double length, std::vector<double>& cuts
 
 JudgedFactors::JudgedFactors(const Scene& scene, const Prices& prices, const Execution& execution)
     : map_(scene.map ? &*scene.map : nullptr), execution_(execution) {
-  if (map_ != nullptr && !map_->unknown.empty()) unknown_ = prices.unknown.value_or(1.0);
+  if (map_ != nullptr && !map_->unknown.empty()) unknown_ = prices.unknown_factor();
   for (const PricedArea& area : prices.areas) {
     if (!(area.factor > 1.0)) continue;
     areas_.push_back({area.factor, {}});

@@ -312,7 +312,7 @@ std::pair<double, double> ends_of_reach(const StretchDistance& thing, double rea
 }  // namespace
 
 bool restricts(const Prices& prices) {
-  if (!prices.keep_out.empty() || prices.unknown) return true;
+  if (!prices.keep_out.empty() || prices.opens_unknown()) return true;
   return std::any_of(prices.masks.begin(), prices.masks.end(), [](const PriceMask& mask) {
     return some_factor(mask, [](const auto& factor) { return !factor; });
   });
@@ -321,7 +321,7 @@ bool restricts(const Prices& prices) {
 OccupancyMap effective_map(const OccupancyMap& map, const Prices& prices, const Execution& execution) {
   execution.reserve(2 * map.blocked.bytes() + map.unknown.bytes() + map.water.bytes());
   OccupancyMap effective = map;
-  if (prices.unknown) effective.blocked.remove(map.unknown);
+  if (prices.opens_unknown()) effective.blocked.remove(map.unknown);
   Bitmap forbidden = cell_bitmap(map.width(), map.height(), execution);
   for (const KeepOut& area : prices.keep_out) {
     std::vector<Vec2> corners;
@@ -434,9 +434,7 @@ double clearance_reach(const ClearancePrice& price, double radius) {
 }
 
 MapPrices::MapPrices(const OccupancyMap& effective, double radius, const Prices& prices, const Execution& execution)
-    : map_(effective),
-      areas_(prices, &effective),
-      unknown_(effective.unknown.empty() ? 1.0 : prices.unknown.value_or(1.0)) {
+    : map_(effective), areas_(prices, &effective), unknown_(effective.unknown.empty() ? 1.0 : prices.unknown_factor()) {
   if (prices.clearance && prices.clearance->price > 0.0) {
     reach_ = (clearance_reach(*prices.clearance, radius) + radius) / map_.cell;
     price_ = clearance_scale(*prices.clearance, radius);

@@ -257,6 +257,13 @@ def test_a_path_of_a_world_without_ends_is_judged_by_its_own():
     assert warren.verify(world, [(1, 1), (1, 6)], start=(2, 2)).violation is not None
 
 
+def test_a_list_that_holds_itself_is_a_type_error():
+    itself = [1.0]
+    itself.append(itself)
+    with pytest.raises(TypeError, match="start"):
+        warren.solve("maze:5x5", start=itself)
+
+
 def test_what_is_printed_names_keywords():
     said = str(warren.solve("maze:15x15", planner="prm", sampler="uniform", samples=200, explain=True))
     assert " samples 800:" in said and "--" not in said
