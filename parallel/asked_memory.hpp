@@ -71,15 +71,13 @@ void reserve_touched(RawVector<T>& empty, std::size_t count, const Execution& ex
   detail::touch_pages(reinterpret_cast<char*>(empty.data()), count * sizeof(T), many_pages, execution);
 }
 
-/// One list of parts in their order, with room for `spare` elements more. Throws Stopped.
+/// One list of parts in their order. Throws Stopped.
 template <class T>
-RawVector<T> joined_parts(const std::vector<RawVector<T>>& parts, const Execution& execution, std::size_t spare = 0) {
+RawVector<T> joined_parts(const std::vector<RawVector<T>>& parts, const Execution& execution) {
   std::vector<std::size_t> first(parts.size() + 1, 0);
   for (std::size_t i = 0; i < parts.size(); ++i) first[i + 1] = first[i] + parts[i].size();
-  execution.reserve((first.back() + spare) * sizeof(T));
-  RawVector<T> all;
-  all.reserve(first.back() + spare);
-  all.resize(first.back());
+  execution.reserve(first.back() * sizeof(T));
+  RawVector<T> all(first.back());
   for_each_index(parts.size(), 1, execution, [&](std::size_t i) {
     std::copy(parts[i].begin(), parts[i].end(), all.begin() + static_cast<std::ptrdiff_t>(first[i]));
   });

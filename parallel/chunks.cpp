@@ -46,14 +46,14 @@ std::vector<std::jthread> started(std::size_t wanted, const auto& work) {
 
 }  // namespace
 
-void run_plain_chunks(std::size_t chunks, unsigned threads, const void* body, void (*call)(const void*, std::size_t)) {
+void run_plain_chunks(std::size_t chunks, unsigned threads, FunctionRef<void(std::size_t)> run) {
   std::atomic<std::size_t> next{0};  // each value is handed to one thread
   std::mutex mutex;                  // guards error
   std::exception_ptr error;
   const auto work = [&] {
     for (std::size_t chunk = next++; chunk < chunks; chunk = next++) {
       try {
-        call(body, chunk);
+        run(chunk);
       } catch (...) {
         const std::lock_guard lock(mutex);
         if (!error) error = std::current_exception();
@@ -69,8 +69,8 @@ void run_plain_chunks(std::size_t chunks, unsigned threads, const void* body, vo
 }
 
 #ifdef WARREN_PLAIN_CHUNKS
-void run_chunks(std::size_t chunks, unsigned threads, const void* body, void (*call)(const void*, std::size_t)) {
-  run_plain_chunks(chunks, threads, body, call);
+void run_chunks(std::size_t chunks, unsigned threads, FunctionRef<void(std::size_t)> run) {
+  run_plain_chunks(chunks, threads, run);
 }
 #else
 namespace {
@@ -214,24 +214,19 @@ Arenas& arenas() {
 
 }  // namespace
 
-void run_chunks(std::size_t chunks, unsigned threads, const void* body, void (*call)(const void*, std::size_t)) {
-  if (is_forked) return run_plain_chunks(chunks, threads, body, call);
+void run_chunks(std::size_t chunks, unsigned threads, FunctionRef<void(std::size_t)> run) {
+  if (is_forked) return run_plain_chunks(chunks, threads, run);
   const unsigned usable = helpers().usable(threads);
-  if (usable <= 1) return run_plain_chunks(chunks, usable == 0 ? threads : 1, body, call);
-  const auto run = [&](std::size_t chunk) { call(body, chunk); };
+  if (usable <= 1) return run_plain_chunks(chunks, usable == 0 ? threads : 1, run);
   arenas().run(usable, [&] { tbb::parallel_for(std::size_t{0}, chunks, run, tbb::auto_partitioner()); });
 }
 #endif
 
-ChunkTrace::ChunkTrace(const Execution& execution) : execution_(execution) {
-  if (execution_.trace != nullptr) begin_ = std::chrono::steady_clock::now();
-}
-
-void ChunkTrace::end(std::size_t items) {
-  execution_.advance(items);
-  if (execution_.trace == nullptr) return;
-  const char* stage = execution_.trace->stage();
-  execution_.trace->record(stage != nullptr ? stage : "chunk", begin_, std::chrono::steady_clock::now(), false, items);
+void tell_of_chunk(const Execution& execution, std::chrono::steady_clock::time_point begin, std::size_t items) {
+  execution.advance(items);
+  if (execution.trace == nullptr) return;
+  const char* stage = execution.trace->stage();
+  execution.trace->record(stage != nullptr ? stage : "chunk", begin, std::chrono::steady_clock::now(), false, items);
 }
 
 }  // namespace warren::detail

@@ -6,10 +6,12 @@
 #pragma once
 
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <numeric>
 #include <vector>
 
+#include "core/base/function_ref.hpp"
 #include "core/run/execution.hpp"
 
 namespace warren {
@@ -24,21 +26,13 @@ struct Range {
 constexpr std::size_t chunk_count(std::size_t n, std::size_t grain) { return (n + grain - 1) / grain; }
 
 namespace detail {
-/// Calls call(body, chunk) for chunk = 0 .. chunks - 1 on up to `threads` threads; returns when all are done.
-void run_chunks(std::size_t chunks, unsigned threads, const void* body, void (*call)(const void*, std::size_t));
+/// Calls run(chunk) for chunk = 0 .. chunks - 1 on up to `threads` threads; returns when all are done.
+void run_chunks(std::size_t chunks, unsigned threads, FunctionRef<void(std::size_t)> run);
 /// The same on threads of their own, on fewer where the system makes no more: for the thread sanitizer (Debian's oneTBB
 /// gives it false reports) and for forked processes. Some tens of microseconds a thread and loop.
-void run_plain_chunks(std::size_t chunks, unsigned threads, const void* body, void (*call)(const void*, std::size_t));
-/// Tells progress and trace about one chunk.
-class ChunkTrace {
- public:
-  explicit ChunkTrace(const Execution& execution);
-  void end(std::size_t items);
-
- private:
-  const Execution& execution_;
-  std::chrono::steady_clock::time_point begin_;
-};
+void run_plain_chunks(std::size_t chunks, unsigned threads, FunctionRef<void(std::size_t)> run);
+/// Tells progress and trace about one chunk, which began then.
+void tell_of_chunk(const Execution& execution, std::chrono::steady_clock::time_point begin, std::size_t items);
 }  // namespace detail
 
 /// Calls body(Range) for each chunk of `grain` indices of 0 .. n - 1; chunks run in any order, at most
@@ -47,19 +41,18 @@ template <class Body>
 void for_chunks(std::size_t n, std::size_t grain, const Execution& execution, const Body& body) {
   const auto run = [&](std::size_t chunk) {
     execution.check();
-    detail::ChunkTrace trace(execution);
+    std::chrono::steady_clock::time_point begin;
+    if (execution.trace != nullptr) begin = std::chrono::steady_clock::now();
     const Range range{chunk * grain, std::min(n, (chunk + 1) * grain)};
     body(range);
-    trace.end(range.size());
+    detail::tell_of_chunk(execution, begin, range.size());
   };
-  using Run = decltype(run);
   const std::size_t chunks = chunk_count(n, grain);
   if (chunks <= 1 || thread_count(execution.threads) == 1) {
     for (std::size_t chunk = 0; chunk < chunks; ++chunk) run(chunk);
     return;
   }
-  detail::run_chunks(chunks, thread_count(execution.threads), &run,
-                     [](const void* f, std::size_t chunk) { (*static_cast<const Run*>(f))(chunk); });
+  detail::run_chunks(chunks, thread_count(execution.threads), run);
 }
 
 /// The same where each index is dealt with by itself: each(index).
@@ -89,10 +82,9 @@ auto sum_of_chunks(std::size_t n, std::size_t grain, const Execution& execution,
 /// where no chunk has one.
 template <class FirstIn>
 std::size_t first_in_chunks(std::size_t n, std::size_t grain, const Execution& execution, const FirstIn& first_in) {
-  std::vector<std::size_t> firsts(chunk_count(n, grain), n);
-  for_chunks(n, grain, execution, [&](Range r) {
+  const std::vector<std::size_t> firsts = parts_of_chunks(n, grain, execution, [&](Range r) {
     const std::size_t i = first_in(r);
-    if (i < r.last) firsts[r.first / grain] = i;
+    return i < r.last ? i : n;
   });
   const auto found = std::find_if(firsts.begin(), firsts.end(), [n](std::size_t i) { return i < n; });
   return found == firsts.end() ? n : *found;
@@ -112,10 +104,8 @@ std::size_t first_that(std::size_t n, std::size_t grain, const Execution& execut
 /// what one of them throws; the other may then not have begun.
 template <class First, class Second>
 void run_both(const Execution& execution, const First& first, const Second& second) {
-  const auto run = [&](std::size_t which) { which == 0 ? first() : second(); };
-  using Run = decltype(run);
-  detail::run_chunks(2, std::min(thread_count(execution.threads), 2U), &run,
-                     [](const void* f, std::size_t which) { (*static_cast<const Run*>(f))(which); });
+  detail::run_chunks(2, std::min(thread_count(execution.threads), 2U),
+                     [&](std::size_t which) { which == 0 ? first() : second(); });
 }
 
 }  // namespace warren

@@ -84,18 +84,16 @@ class Guarded {
   /// Calls use(value) while nobody else uses it, and returns what that returns.
   template <class Use>
   auto use(const Use& use) {
-    const std::lock_guard lock(mutex_);
-    return use(value_);
+    return one_([&] { return use(value_); });
   }
   /// The same, to look at it.
   template <class Use>
   auto use(const Use& use) const {
-    const std::lock_guard lock(mutex_);
-    return use(std::as_const(value_));
+    return one_([&] { return use(value_); });
   }
 
  private:
-  mutable std::mutex mutex_;  // guards value_
+  OneAtATime one_;  // who uses value_
   T value_{};
 };
 

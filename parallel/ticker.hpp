@@ -17,27 +17,19 @@ namespace warren {
 class Ticker {
  public:
   /// tick must not throw; it is first called after `first`, then every `period`.
-  Ticker(std::chrono::milliseconds first, std::chrono::milliseconds period, std::function<void()> tick)
-      : tick_(std::move(tick)) {
+  Ticker(std::chrono::milliseconds first, std::chrono::milliseconds period, std::function<void()> tick) {
     try {
-      thread_ = std::jthread([this, first, period](const std::stop_token& stop) { run(first, period, stop); });
+      thread_ = std::jthread([this, first, period, tick = std::move(tick)](const std::stop_token& stop) {
+        std::mutex own;  // guards nothing: waits are made with one
+        std::unique_lock lock(own);
+        const auto is_over = [&] { return stop.stop_requested(); };
+        for (auto pause = first; !wake_.wait_for(lock, stop, pause, is_over); pause = period) tick();
+      });
     } catch (const std::system_error&) {  // no thread is to be had
     }
   }
 
  private:
-  void run(std::chrono::milliseconds first, std::chrono::milliseconds period, const std::stop_token& stop) {
-    std::mutex own;  // guards nothing: waits are made with one
-    std::unique_lock lock(own);
-    const auto is_over = [&] { return stop.stop_requested(); };
-    wake_.wait_for(lock, stop, first, is_over);
-    while (!is_over()) {
-      tick_();
-      wake_.wait_for(lock, stop, period, is_over);
-    }
-  }
-
-  std::function<void()> tick_;
   std::condition_variable_any wake_;
   std::jthread thread_;  // ended first
 };

@@ -51,35 +51,35 @@ PictureLayer layer_of(NamedLines lines) {
   return layer;
 }
 
-void take_lengths(Drawing& drawing) {
-  const std::vector<double> straight(drawing.body.poses.size(), 0.0);
-  drawing.body.lengths = leg_lengths(drawing.body.poses, drawing.path_turns.empty() ? straight : drawing.path_turns);
+void take_lengths(Picture& picture) {
+  const std::vector<double> straight(picture.body.poses.size(), 0.0);
+  picture.body.lengths = leg_lengths(picture.body.poses, picture.path_turns.empty() ? straight : picture.path_turns);
 }
 
-void add_bodies(Drawing& drawing, const RobotSpec& robot, const StateList& states) {
+void add_bodies(Picture& picture, const RobotSpec& robot, const StateList& states) {
   const bool drives = robot.kind == RobotKind::car;
-  drawing.body = {.outline = robot.outline, .radius = robot.radius, .heads = drives};
+  picture.body = {.outline = robot.outline, .radius = robot.radius, .heads = drives};
   if (robot.kind == RobotKind::point) return;
-  drawing.path_label = "path of the reference point";
+  picture.path_label = "path of the reference point";
   std::vector<Se2> poses;
   if (states.width == 3 && !states.empty()) {
     poses = poses_of(states);
-    drawing.body.poses = poses;
+    picture.body.poses = poses;
   } else {
-    for (const Vec2 p : drawing.path) poses.push_back({p.x, p.y, 0.0});
+    for (const Vec2 p : picture.path) poses.push_back({p.x, p.y, 0.0});
   }
-  if (drives) drawing.path_turns = leg_turns(poses);
-  for (PictureLayer& layer : bodies_along(poses, robot)) drawing.layers.push_back(std::move(layer));
-  take_lengths(drawing);
+  if (drives) picture.path_turns = leg_turns(poses);
+  for (PictureLayer& layer : bodies_along(poses, robot)) picture.layers.push_back(std::move(layer));
+  take_lengths(picture);
 }
 
-void add_roadmap(Drawing& drawing, const Answer& answer, ByProducts& made, const Execution& execution) {
+void add_roadmap(Picture& picture, const Answer& answer, ByProducts& made, const Execution& execution) {
   const RobotSpec& robot = answer.problem.robot;
   PlannedRoadmap<Vec2> roadmap;
   if (robot.kind == RobotKind::car) {
     CarCurves curves = car_curves(made.pose_roadmaps, robot, execution);
-    drawing.layers.push_back(std::move(curves.edges));
-    drawing.layers.push_back(std::move(curves.trees));
+    picture.layers.push_back(std::move(curves.edges));
+    picture.layers.push_back(std::move(curves.trees));
     roadmap.graph = Graph(RawVector<EdgeEnd>(curves.milestones.size() + 1, 0), {});
     roadmap.states = std::move(curves.milestones);
   } else {
@@ -89,7 +89,7 @@ void add_roadmap(Drawing& drawing, const Answer& answer, ByProducts& made, const
   }
   const auto planner = enum_named<PlannerKind>(answer.planner);
   const bool is_shown = (planner && is_roadmap_planner(*planner)) || !roadmap.states.empty();
-  if (is_shown) drawing.roadmap = std::move(roadmap);
+  if (is_shown) picture.roadmap = std::move(roadmap);
 }
 
 /// Paths that were the best before, the older the fainter.
@@ -144,39 +144,37 @@ PictureLayer informed_set(const Answer& answer, Vec2 start, Vec2 goal, const Box
 }
 
 /// What is seen of a planner that gets better: where it looked, and the paths that it had before.
-void add_improvements(Drawing& drawing, const Scene& scene, const Answer& answer, ByProducts& made) {
+void add_improvements(Picture& picture, const Scene& scene, const Answer& answer, ByProducts& made) {
   if (!answer.verified || answer.improvements.empty()) return;
   const RobotKind body = answer.problem.robot.kind;
   const bool is_informed = answer.planner != name_of(PlannerKind::rrt_star);
-  if (is_informed && (body == RobotKind::point || body == RobotKind::disc) && drawing.start && drawing.goal) {
+  if (is_informed && (body == RobotKind::point || body == RobotKind::disc) && picture.start && picture.goal) {
     Box box = obstacle_box(scene);
     if (scene.bounds) box.include(*scene.bounds);
-    for (const Vec2 p : drawing.path) box.include(p);
-    PictureLayer ellipse = informed_set(answer, *drawing.start, *drawing.goal, box);
-    if (!ellipse.lines.empty()) drawing.layers.push_back(std::move(ellipse));
+    for (const Vec2 p : picture.path) box.include(p);
+    PictureLayer ellipse = informed_set(answer, *picture.start, *picture.goal, box);
+    if (!ellipse.lines.empty()) picture.layers.push_back(std::move(ellipse));
   }
   // The last of them is the answer's own, unless it was made shorter in the end.
   const bool has_own = std::abs(answer.improvements.back().length - answer.length) <= 1e-9 * answer.length;
   PolygonSet before;
   for (std::size_t i = 0; i + (has_own ? 1 : 0) < made.improved.size(); ++i) before.add(made.improved[i]);
   if (before.empty()) return;
-  drawing.layers.push_back(improvements_layer(answer, std::move(before)));
-  drawing.path_label += fmt::format(", {} long", human_number(answer.length));
+  picture.layers.push_back(improvements_layer(answer, std::move(before)));
+  picture.path_label += fmt::format(", {} long", human_number(answer.length));
 }
 
 /// Obstacles that are cells, and what prices say of the ground.
 std::vector<PictureLayer> ground_of(const Scene& scene, const RobotSpec& robot, const Prices& prices,
                                     const Execution& execution) {
   std::vector<PictureLayer> layers = scene.map ? cells_of_map(*scene.map, execution) : std::vector<PictureLayer>{};
-  if (prices.empty()) return layers;
-  const bool is_round = robot.outline.empty();
-  for (PictureLayer& layer : price_layers(prices, scene.map, is_round ? robot.radius : 0.0, execution))
-    layers.push_back(std::move(layer));
+  const double radius = robot.outline.empty() ? robot.radius : 0.0;
+  for (PictureLayer& layer : price_layers(prices, scene.map, radius, execution)) layers.push_back(std::move(layer));
   return layers;
 }
 
 /// The other goals, the places on the way, and the other ways.
-void add_choices(Drawing& drawing, const GoalRule& rule, const std::vector<std::vector<double>>& via,
+void add_choices(Picture& picture, const GoalRule& rule, const std::vector<std::vector<double>>& via,
                  std::span<const AlternativePath> others) {
   PictureLayer places{.id = "places",
                       .label = !via.empty()         ? "way-points"
@@ -192,7 +190,7 @@ void add_choices(Drawing& drawing, const GoalRule& rule, const std::vector<std::
       if (const auto p = plane_point(state)) places.lines.add(std::array{*p, *p});
     }
   }
-  if (!places.lines.empty()) drawing.layers.push_back(std::move(places));
+  if (!places.lines.empty()) picture.layers.push_back(std::move(places));
   if (others.empty()) return;
   PictureLayer ways{.id = "alternatives",
                     .label = counted(others.size(), "other way", "other ways"),
@@ -201,20 +199,16 @@ void add_choices(Drawing& drawing, const GoalRule& rule, const std::vector<std::
                     .width = 0.7 * widths::path,
                     .over_roadmap = true};
   for (const AlternativePath& other : others) ways.lines.add(other.path);
-  drawing.layers.push_back(std::move(ways));
+  picture.layers.push_back(std::move(ways));
 }
 
-Drawing drawing_of_arm(const Scene& scene, const ArmModel& model, const std::vector<double>& start,
+Picture drawing_of_arm(const Scene& scene, const ArmModel& model, const std::vector<double>& start,
                        Path<JointState> path, std::string subtitle, const Execution& execution) {
   if (path.empty()) path.push_back(joint_state(start));
-  ArmViews views = arm_views(scene, model, path, execution);
-  return {.layers = std::move(views.layers),
-          .stage = std::move(views.stage),
-          .panels = std::move(views.panels),
-          .solids = std::move(views.solids),
-          .arm = std::move(views.arm),
-          .title = title_of(scene),
-          .subtitle = std::move(subtitle)};
+  Picture picture = arm_views(scene, model, path, execution);
+  picture.title = title_of(scene);
+  picture.subtitle = std::move(subtitle);
+  return picture;
 }
 
 std::string body_text(const RobotSpec& robot, std::string_view metres) {
@@ -285,24 +279,22 @@ class RoadmapDrawing {
   RoadmapDrawing(const Scene& scene, const Roadmap& roadmap, const RoadmapArrays& arrays, const Execution& execution)
       : scene_(scene), roadmap_(roadmap), arrays_(arrays), execution_(execution) {}
 
-  Drawing draw(std::optional<double> heading_rad) const {
+  Picture draw(std::optional<double> heading_rad) const {
     if (heading_rad) check_has_headings(roadmap_.robot);
     if (is_arm(roadmap_.robot)) return draw_arm();
-    Drawing drawing;
-    drawing.start = plane_point(scene_.start);
-    drawing.goal = plane_point(scene_.goal);
-    if (scene_.map) drawing.layers = cells_of_map(*scene_.map, execution_);
+    Picture picture{.scene = scene_, .start = plane_point(scene_.start), .goal = plane_point(scene_.goal)};
+    if (scene_.map) picture.layers = cells_of_map(*scene_.map, execution_);
     if (heading_rad) {
-      add_heading(drawing, scene_, roadmap_.robot, roadmap_.clearance, poses(), *heading_rad, execution_);
+      add_heading(picture, scene_, roadmap_.robot, roadmap_.clearance, poses(), *heading_rad, execution_);
     }
     const bool drives = roadmap_.robot.kind == RobotKind::car;
-    drives ? add_curves(drawing) : add_lines(drawing);
-    drawing.roadmap.emplace();
-    drawing.roadmap->states = positions();
-    drawing.roadmap->graph =
+    drives ? add_curves(picture) : add_lines(picture);
+    picture.roadmap.emplace();
+    picture.roadmap->states = positions();
+    picture.roadmap->graph =
         drives ? Graph(RawVector<EdgeEnd>(vertex_count() + 1, 0), {}) : edges_in(EdgeState::free, arrays_, execution_);
-    if (!heading_rad && arrays_.dimension == 3 && vertex_count() <= most_arrows) drawing.layers.push_back(arrows());
-    return drawing;
+    if (!heading_rad && arrays_.dimension == 3 && vertex_count() <= most_arrows) picture.layers.push_back(arrows());
+    return picture;
   }
 
  private:
@@ -324,7 +316,7 @@ class RoadmapDrawing {
     }
     return all;
   }
-  void add_lines(Drawing& drawing) const {
+  void add_lines(Picture& picture) const {
     for (const EdgeStyle& style : edge_styles) {
       if (style.state == EdgeState::free) continue;  // they are the roadmap
       PictureLayer layer{.id = style.id, .label = style.label, .color = style.color, .width = thin};
@@ -335,11 +327,11 @@ class RoadmapDrawing {
           if (v < w || arrays_.directed) layer.lines.add(std::array{position(v), position(w)});
         }
       }
-      if (layer.lines.size() > 0) drawing.layers.push_back(std::move(layer));
+      if (layer.lines.size() > 0) picture.layers.push_back(std::move(layer));
     }
   }
 
-  void add_curves(Drawing& drawing) const {
+  void add_curves(Picture& picture) const {
     std::array<PlannedRoadmap<Se2>, 1> roadmap;
     roadmap[0].states = poses();
     for (const EdgeStyle& style : edge_styles) {
@@ -349,7 +341,7 @@ class RoadmapDrawing {
       layer.label = style.label;
       layer.color = style.color;
       if (style.state != EdgeState::free) layer.width = thin;
-      if (layer.lines.size() > 0) drawing.layers.push_back(std::move(layer));
+      if (layer.lines.size() > 0) picture.layers.push_back(std::move(layer));
     }
   }
 
@@ -360,7 +352,7 @@ class RoadmapDrawing {
     const double length = std::min(extent / 50.0, 0.4 * extent / std::sqrt(static_cast<double>(vertex_count())));
     return heading_arrows(poses(), length);
   }
-  Drawing draw_arm() const {
+  Picture draw_arm() const {
     std::vector<JointState> states;
     const std::size_t n = arrays_.dimension;
     for (std::size_t v = 0; v < vertex_count(); ++v) {
@@ -373,13 +365,11 @@ class RoadmapDrawing {
         lines.back().edges.push_back({v, w});
       });
     }
-    ArmViews views =
+    Picture picture =
         arm_roadmap_views(scene_, arm_model_of(roadmap_.robot, 0.0, execution_),
                           scene_.start.empty() ? JointState{} : joint_state(scene_.start), states, lines, execution_);
-    return {.layers = std::move(views.layers),
-            .stage = std::move(views.stage),
-            .panels = std::move(views.panels),
-            .solids = std::move(views.solids)};
+    picture.arm.reset();  // it stands
+    return picture;
   }
 
   const Scene& scene_;
@@ -388,7 +378,7 @@ class RoadmapDrawing {
   const Execution& execution_;
 };
 
-Drawing drawing_of_roadmap(const Scene& scene, const Roadmap& roadmap, const EdgeCounts& edges,
+Picture drawing_of_roadmap(const Scene& scene, const Roadmap& roadmap, const EdgeCounts& edges,
                            std::optional<double> heading_rad, const Execution& execution) {
   const bool by_index = roadmap.lattice != nullptr;  // its blocked edges are its walls
   const std::uint64_t drawn = edges.free + (by_index ? 0 : edges.unchecked + edges.blocked);
@@ -405,20 +395,20 @@ Drawing drawing_of_roadmap(const Scene& scene, const Roadmap& roadmap, const Edg
 
 }  // namespace
 
-void add_heading(Drawing& drawing, const Scene& scene, const RobotSpec& robot, double clearance,
+void add_heading(Picture& picture, const Scene& scene, const RobotSpec& robot, double clearance,
                  std::span<const Se2> states, double heading_rad, const Execution& execution) {
   const HeadingCells cells = heading_cells(scene, robot, clearance, heading_rad, execution);
-  drawing.layers.insert(drawing.layers.begin(), blocked_at_heading(cells, execution));
-  if (states.empty()) drawing.layers.push_back(arrows_among(cells, execution));
-  for (PictureLayer& layer : state_arrows(states, heading_rad)) drawing.layers.push_back(std::move(layer));
+  picture.layers.insert(picture.layers.begin(), blocked_at_heading(cells, execution));
+  if (states.empty()) picture.layers.push_back(arrows_among(cells, execution));
+  for (PictureLayer& layer : state_arrows(states, heading_rad)) picture.layers.push_back(std::move(layer));
 }
 
-void add_heading_of_world(Drawing& drawing, const Scene& scene, double heading_rad, const Execution& execution) {
+void add_heading_of_world(Picture& picture, const Scene& scene, double heading_rad, const Execution& execution) {
   const Question none;
-  add_heading(drawing, scene, robot_of(scene, none), clearance_of(scene, none), {}, heading_rad, execution);
+  add_heading(picture, scene, robot_of(scene, none), clearance_of(scene, none), {}, heading_rad, execution);
 }
 
-Drawing drawing_of(const Scene& scene, const Answer& answer, ByProducts made, const Execution& execution,
+Picture drawing_of(const Scene& scene, const Answer& answer, ByProducts made, const Execution& execution,
                    std::optional<double> heading_rad) {
   if (heading_rad) check_has_headings(answer.problem.robot);
   const Problem& problem = answer.problem;
@@ -429,7 +419,8 @@ Drawing drawing_of(const Scene& scene, const Answer& answer, ByProducts made, co
     return drawing_of_arm(scene, arm_model_of(problem.robot, 0.0, execution), problem.start, std::move(path),
                           subtitle_of(scene, answer), execution);
   }
-  Drawing drawing{.layers = ground_of(scene, problem.robot, problem.prices, execution),
+  Picture picture{.scene = scene,
+                  .layers = ground_of(scene, problem.robot, problem.prices, execution),
                   .path = answer.refuted ? answer.refuted->path : answer.path,
                   .start = plane_point(problem.start),
                   .goal = plane_point(problem.goal),
@@ -437,7 +428,7 @@ Drawing drawing_of(const Scene& scene, const Answer& answer, ByProducts made, co
                   .subtitle = subtitle_of(scene, answer)};
   for (const HeadingCells& heading : made.headings) {
     PictureLayer cells = blocked_at_heading(heading, execution);
-    DrawingPage& page = drawing.pages.emplace_back(DrawingPage{cells.id, drawing.layers});
+    PicturePage& page = picture.pages.emplace_back(PicturePage{cells.id, picture.layers});
     page.layers.insert(page.layers.begin(), std::move(cells));
     page.layers.push_back(arrows_among(heading, execution));
   }
@@ -446,21 +437,21 @@ Drawing drawing_of(const Scene& scene, const Answer& answer, ByProducts made, co
     for (const PlannedRoadmap<Se2>& some : made.pose_roadmaps) {
       milestones.insert(milestones.end(), some.states.begin(), some.states.end());
     }
-    add_heading(drawing, scene, problem.robot, problem.clearance, milestones, *heading_rad, execution);
+    add_heading(picture, scene, problem.robot, problem.clearance, milestones, *heading_rad, execution);
   }
-  for (NamedLines& lines : made.lines) drawing.layers.push_back(layer_of(std::move(lines)));
-  add_roadmap(drawing, answer, made, execution);
-  add_bodies(drawing, problem.robot, states);
+  for (NamedLines& lines : made.lines) picture.layers.push_back(layer_of(std::move(lines)));
+  add_roadmap(picture, answer, made, execution);
+  add_bodies(picture, problem.robot, states);
   if (answer.verified && !made.arcs.points.empty()) {
-    drawing.path.assign(made.arcs.points.begin(), made.arcs.points.end());
-    drawing.path_turns = std::move(made.arcs.turns);
+    picture.path.assign(made.arcs.points.begin(), made.arcs.points.end());
+    picture.path_turns = std::move(made.arcs.turns);
   }
-  add_improvements(drawing, scene, answer, made);
-  add_choices(drawing, problem.rule, problem.via, answer.alternatives);
-  return drawing;
+  add_improvements(picture, scene, answer, made);
+  add_choices(picture, problem.rule, problem.via, answer.alternatives);
+  return picture;
 }
 
-Drawing drawing_of(const Scene& scene, const RecordedAnswer& answer, const Execution& execution,
+Picture drawing_of(const Scene& scene, const RecordedAnswer& answer, const Execution& execution,
                    std::optional<double> heading_rad) {
   const RobotSpec robot = robot_of(scene, answer.problem);
   if (heading_rad) check_has_headings(robot);
@@ -472,66 +463,40 @@ Drawing drawing_of(const Scene& scene, const RecordedAnswer& answer, const Execu
     for (const std::vector<double>& state : states_of(answer)) path.push_back(joint_state(state));
     return drawing_of_arm(scene, model, start, std::move(path), subtitle_of(scene, answer), execution);
   }
-  Drawing drawing{.layers = ground_of(scene, robot, answer.problem.prices, execution),
+  Picture picture{.scene = scene,
+                  .layers = ground_of(scene, robot, answer.problem.prices, execution),
                   .path = answer.path,
                   .start = plane_point(start),
                   .goal = plane_point(answer.problem.goal.empty() ? scene.goal : answer.problem.goal),
                   .title = title_of(scene),
                   .subtitle = subtitle_of(scene, answer)};
-  if (heading_rad) add_heading(drawing, scene, robot, clearance_of(scene, answer.problem), {}, *heading_rad, execution);
-  if (answer.state_width() == state_size(robot)) add_bodies(drawing, robot, answer.states);
-  add_choices(drawing, answer.problem.rule, answer.via, {});
-  return drawing;
+  if (heading_rad) add_heading(picture, scene, robot, clearance_of(scene, answer.problem), {}, *heading_rad, execution);
+  if (answer.state_width() == state_size(robot)) add_bodies(picture, robot, answer.states);
+  add_choices(picture, answer.problem.rule, answer.via, {});
+  return picture;
 }
 
-void animate(Drawing& drawing) {
+void animate(Picture& picture) {
   constexpr double point_share = 1.0 / 120.0;
-  drawing.moves = true;
-  if (drawing.arm) return;
-  MovingBody& body = drawing.body;
+  picture.moves = true;
+  if (picture.arm) return;
+  MovingBody& body = picture.body;
   if (body.poses.empty()) {
-    for (const Vec2 p : drawing.path) body.poses.push_back({p.x, p.y, 0.0});
-    take_lengths(drawing);
+    for (const Vec2 p : picture.path) body.poses.push_back({p.x, p.y, 0.0});
+    take_lengths(picture);
   }
   if (body.outline.empty() && body.radius == 0.0) {
-    const Box box = box_around(drawing.path);
+    const Box box = box_around(picture.path);
     body.radius = point_share * std::max(box.width(), box.height());
   }
-}
-
-Picture picture_of(const Scene& scene, const Drawing& drawing) {
-  return {.scene = drawing.stage ? *drawing.stage : scene,
-          .roadmap = drawing.roadmap ? &*drawing.roadmap : nullptr,
-          .layers = drawing.layers,
-          .path = drawing.path,
-          .path_turns = drawing.path_turns,
-          .start = drawing.start,
-          .goal = drawing.goal,
-          .panels = drawing.panels,
-          .solids = drawing.solids ? &*drawing.solids : nullptr,
-          .path_label = drawing.path_label,
-          .title = drawing.title,
-          .subtitle = drawing.subtitle,
-          .body = &drawing.body,
-          .arm = drawing.arm ? &*drawing.arm : nullptr,
-          .moves = drawing.moves};
-}
-
-Picture picture_of(const Scene& scene, const Drawing& drawing, const DrawingPage& page) {
-  return {.scene = scene,
-          .layers = page.layers,
-          .start = drawing.start,
-          .goal = drawing.goal,
-          .title = drawing.title,
-          .subtitle = drawing.subtitle};
 }
 
 std::vector<std::string> write_picture(const std::string& file, const Scene& scene, const Answer& answer,
                                        ByProducts made, const PictureOptions& options, const Execution& execution) {
   std::optional<Scene> copy;
   const Scene& shown = with_map_walls(scene, copy, execution);
-  const Drawing drawing = drawing_of(shown, answer, std::move(made), execution, options.heading);
-  return write_picture(file, picture_of(shown, drawing), options, execution);
+  return write_picture(file, drawing_of(shown, answer, std::move(made), execution, options.heading), options,
+                       execution);
 }
 
 std::string title_of(const Scene& scene) { return scene.source.substr(scene.source.rfind('/') + 1); }
@@ -563,8 +528,7 @@ void draw_roadmap(const Roadmap& roadmap, const std::string& description, std::o
   std::optional<Scene> copy;
   const Scene& scene = with_map_walls(world, copy, execution);
   const EdgeCounts edges = count_edges(roadmap, execution);
-  const Drawing drawing = drawing_of_roadmap(scene, roadmap, edges, heading_rad, execution);
-  Picture picture = picture_of(scene, drawing);
+  Picture picture = drawing_of_roadmap(scene, roadmap, edges, heading_rad, execution);
   picture.title = title_of(world);
   picture.subtitle = fmt::format("{}\nroadmap of {}, edges: {} free, {} blocked, {} unchecked",
                                  subtitle_of(world, roadmap.robot), counted(count_states(roadmap), "state", "states"),

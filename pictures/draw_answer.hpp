@@ -24,57 +24,26 @@
 
 namespace warren {
 
-/// A further picture of an answer: the same world with other layers, without roadmap and path.
-struct DrawingPage {
-  std::string id;                    ///< ends the name of its file
-  std::vector<PictureLayer> layers;  ///< in the order in which they are drawn
-};
-
-/// A world with an answer on it, ready to be drawn. Owns all but the scene.
-struct Drawing {
-  std::optional<PlannedRoadmap<Vec2>> roadmap = {};  ///< of bodies whose states stand in the plane
-  std::vector<PictureLayer> layers = {};             ///< in the order in which they are drawn
-  std::vector<DrawingPage> pages = {};               ///< what deserves a picture of its own each
-  std::optional<Scene> stage = {};                   ///< shown instead of the world: views of a world that is not plane
-  Path<Vec2> path = {};                              ///< of the reference point
-  std::vector<double> path_turns = {};               ///< as Picture::path_turns
-  std::optional<Vec2> start = {};                    ///< none: not shown
-  std::optional<Vec2> goal = {};                     ///< none: not shown
-  std::vector<AxesPanel> panels = {};                ///< as Picture::panels
-  std::optional<SolidView> solids = {};              ///< an arm's world in perspective
-  std::optional<MovingArm> arm = {};                 ///< that moves in it
-  std::string path_label = "path";                   ///< as the legend calls it
-  std::string title = {};                            ///< the world
-  std::string subtitle = {};                         ///< what was asked, how it was solved and what came of it
-  MovingBody body = {};                              ///< of points and discs without poses: those are the path's
-  bool moves = false;                                ///< animate() was asked for it
-};
-
-/// An answer, and what its planner made. A refuted path is drawn as any other. Throws Stopped; what it throws for a
-/// table of an arm, solving has thrown before. heading_rad: as PictureOptions::heading.
-Drawing drawing_of(const Scene& scene, const Answer& answer, ByProducts made, const Execution& execution,
+/// A world with an answer on it, and what its planner made, without description. A refuted path is drawn as any other.
+/// Throws Stopped; what it throws for a table of an arm, solving has thrown before. heading_rad: as
+/// PictureOptions::heading.
+Picture drawing_of(const Scene& scene, const Answer& answer, ByProducts made, const Execution& execution,
                    std::optional<double> heading_rad = {});
 
 /// The same of an answer that was read from a file: path and body. Throws InputError as check_joints() does.
-Drawing drawing_of(const Scene& scene, const RecordedAnswer& answer, const Execution& execution,
+Picture drawing_of(const Scene& scene, const RecordedAnswer& answer, const Execution& execution,
                    std::optional<double> heading_rad = {});
 
 /// What PictureOptions::heading asks for: the cells without room for the body at that heading, and the states as
 /// arrows; without states some arrows where it has room. Throws UsageError for bodies that have no such layer; Stopped.
-void add_heading(Drawing& drawing, const Scene& scene, const RobotSpec& robot, double clearance,
+void add_heading(Picture& picture, const Scene& scene, const RobotSpec& robot, double clearance,
                  std::span<const Se2> states, double heading_rad, const Execution& execution);
 /// The same of the world's own body.
-void add_heading_of_world(Drawing& drawing, const Scene& scene, double heading_rad, const Execution& execution);
+void add_heading_of_world(Picture& picture, const Scene& scene, double heading_rad, const Execution& execution);
 
 /// Lets the body move along the path, in pictures that can (SVG, HTML); a point is shown as a small disc, an arm in its
 /// three projections.
-void animate(Drawing& drawing);
-
-/// Refers to both; of a map, the walls shown are those that add_map_walls() gave the scene. Title and description are
-/// left to the caller.
-Picture picture_of(const Scene& scene, const Drawing& drawing);
-/// The same with a page's layers.
-Picture picture_of(const Scene& scene, const Drawing& drawing, const DrawingPage& page);
+void animate(Picture& picture);
 
 /// The picture of an answer in one go, in the format that the file's ending says, with the borders of a map's cells.
 /// Returns as write_picture() of formats/ does. Throws WriteError, Stopped.

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -19,6 +20,7 @@
 #include "solve/kinds/kind_of_problem.hpp"
 #include "solve/kinds/question_of_pose.hpp"
 #include "solve/question/planner_choice.hpp"
+#include "solve/question/question_of_arm.hpp"
 
 namespace warren {
 namespace {
@@ -55,33 +57,57 @@ const Graph* graph_of(const ByProducts& made, const Answer& answer) {
   return nullptr;
 }
 
-/// A verified path, part by part, among the obstacles that are near the part which is looked at.
-class PathParts {
+/// Where a verified path has the least room: part by part, among the obstacles that are near the part which is looked
+/// at.
+class NarrowestSearch {
  public:
-  /// Obstacles that come as near as `room` are looked at.
-  PathParts(const Scene& scene, Question question, const RecordedAnswer& answer, double room,
-            const Execution& execution)
+  /// `room`: the least.
+  NarrowestSearch(const Scene& scene, Question question, const RecordedAnswer& answer, double room,
+                  const Execution& execution)
       : question_(std::move(question)),
         answer_(answer),
         execution_(execution),
         kind_(verifying_kind(scene, question_)),
+        room_(room),
         reach_(2.0 * room + extent_of(*question_.robot)) {
-    look_at(scene, 0, size() - 1);
+    look_at(scene, 0, answer.state_count() - 1);
   }
 
-  /// From now on obstacles that are far from the states first .. last are left out.
-  void look_at(std::size_t first, std::size_t last) { look_at(near_, first, last); }
+  /// By the half that has it, again and again.
+  std::size_t narrowest_leg() {
+    std::size_t first = 0;
+    std::size_t last = answer_.state_count() - 1;
+    while (last - first > 1) {
+      const std::size_t middle = first + (last - first) / 2;
+      const double before = clearance(first, middle);
+      const bool is_before = before <= room_ || before <= clearance(middle, last);
+      (is_before ? last : first) = middle;
+      look_at(near_, first, last);
+    }
+    return first;
+  }
+  /// The same along a straight leg, to a thousandth of it.
+  Vec2 place_on(std::size_t leg) const {
+    constexpr int halvings = 10;
+    Vec2 from{answer_.numbers(leg)[0], answer_.numbers(leg)[1]};
+    Vec2 to{answer_.numbers(leg + 1)[0], answer_.numbers(leg + 1)[1]};
+    if (!answer_.states.empty()) return from;
+    const auto room = [&](Vec2 p, Vec2 q) { return clearance({{p.x, p.y}, {q.x, q.y}}); };
+    for (int i = 0; i < halvings; ++i) {
+      const Vec2 middle = 0.5 * (from + to);
+      (room(from, middle) <= room(middle, to) ? to : from) = middle;
+    }
+    return 0.5 * (from + to);
+  }
 
-  std::size_t size() const { return answer_.state_count(); }
-  bool in_plane() const { return answer_.states.empty(); }
-  std::vector<double> state(std::size_t i) const { return answer_.state(i); }
+ private:
   double clearance(std::size_t first, std::size_t last) const {
     constexpr std::size_t bytes_a_state = 128;  // with what is recorded of it
     execution_.reserve((last - first + 1) * bytes_a_state);
     std::vector<std::vector<double>> states;
     for (std::size_t i = first; i <= last; ++i) {
       execution_.poll(i);
-      states.push_back(state(i));
+      states.push_back(answer_.state(i));
     }
     return clearance(states);
   }
@@ -92,10 +118,9 @@ class PathParts {
     question.goal = states.back();
     return kind_.verify(near_, question, recorded(states), execution_).min_clearance;
   }
-
- private:
+  /// From now on obstacles of the scene that are far from the states first .. last are left out.
   void look_at(const Scene& scene, std::size_t first, std::size_t last) {
-    if (state(0).size() > 3) {
+    if (is_arm(*question_.robot)) {
       near_ = scene;
       return;
     }
@@ -103,7 +128,7 @@ class PathParts {
     double longest = 0.0;  // a car's curve bends away from its chord by no more
     for (std::size_t i = first; i <= last; ++i) {
       execution_.poll(i);
-      const std::vector<double> at = state(i);
+      const std::span<const double> at = answer_.numbers(i);
       push_asked(way, {at[0], at[1]}, execution_);
       if (i > first) longest = std::max(longest, distance(way.end()[-2], way.back()));
     }
@@ -115,39 +140,10 @@ class PathParts {
   const RecordedAnswer& answer_;
   const Execution& execution_;
   const SolveKind& kind_;
-  double reach_;
+  double room_;
+  double reach_;  // of obstacles that are looked at
   Scene near_;
 };
-
-/// The leg with the least room: the half that has it, again and again.
-std::size_t narrowest_leg(PathParts& parts, double least) {
-  std::size_t first = 0;
-  std::size_t last = parts.size() - 1;
-  while (last - first > 1) {
-    const std::size_t middle = first + (last - first) / 2;
-    const double before = parts.clearance(first, middle);
-    const bool is_before = before <= least || before <= parts.clearance(middle, last);
-    (is_before ? last : first) = middle;
-    parts.look_at(first, last);
-  }
-  return first;
-}
-
-/// The same along a straight leg, to a thousandth of it.
-Vec2 narrowest_on(const PathParts& parts, std::size_t leg) {
-  constexpr int halvings = 10;
-  const std::vector<double> a = parts.state(leg);
-  const std::vector<double> b = parts.state(leg + 1);
-  Vec2 from{a[0], a[1]};
-  Vec2 to{b[0], b[1]};
-  if (!parts.in_plane()) return from;
-  const auto room = [&](Vec2 p, Vec2 q) { return parts.clearance({{p.x, p.y}, {q.x, q.y}}); };
-  for (int i = 0; i < halvings; ++i) {
-    const Vec2 middle = 0.5 * (from + to);
-    (room(from, middle) <= room(middle, to) ? to : from) = middle;
-  }
-  return 0.5 * (from + to);
-}
 
 /// The square lies in the box of all.
 std::optional<double> one_sample_in(const Scene& scene, const Answer& answer, const Execution& execution) {
@@ -343,10 +339,9 @@ class Hints {
 std::optional<NarrowPlace> narrowest_place(const Scene& scene, const Question& question, const RecordedAnswer& answer,
                                            double min_clearance, const Execution& execution) {
   if (answer.state_count() < 2 || !(min_clearance > 0.0) || !std::isfinite(min_clearance)) return std::nullopt;
-  PathParts parts(scene, question, answer, min_clearance, execution);
-  NarrowPlace narrow{
-      .leg = narrowest_leg(parts, min_clearance), .place = {}, .clearance = min_clearance, .one_sample_in = {}};
-  if (parts.state(0).size() <= 3) narrow.place = narrowest_on(parts, narrow.leg);
+  NarrowestSearch search(scene, question, answer, min_clearance, execution);
+  NarrowPlace narrow{.leg = search.narrowest_leg(), .place = {}, .clearance = min_clearance, .one_sample_in = {}};
+  if (!is_arm(*question.robot)) narrow.place = search.place_on(narrow.leg);
   return narrow;
 }
 

@@ -49,16 +49,14 @@ std::string usage_hint(std::span<const std::string> words) {
 constexpr std::size_t heap_bytes = 120 << 10;  // below what malloc() maps by itself, so that it gives them out again
 constexpr std::size_t stack_bytes = 64 << 10;  // far below the first 128 KiB, which the kernel has set aside
 
+void populate([[maybe_unused]] std::uintptr_t first, [[maybe_unused]] std::size_t bytes) {
 #ifdef MADV_POPULATE_WRITE
-void populate(std::uintptr_t first, std::size_t bytes) {
   const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
   const std::uintptr_t from = (first + page - 1) / page * page;
   const std::uintptr_t end = (first + bytes) / page * page;
   if (end > from) static_cast<void>(madvise(reinterpret_cast<void*>(from), end - from, MADV_POPULATE_WRITE));
-}
-#else
-void populate(std::uintptr_t, std::size_t) {}
 #endif
+}
 
 /// Never fails: a kernel that knows no such call gives the pages one by one, as they are touched.
 void take_first_pages() {

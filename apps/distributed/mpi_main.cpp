@@ -55,8 +55,7 @@ int dispatch(std::vector<std::string> words, MpiTransport& transport) {
   };
   if (words.empty() || words[0] == "--help" || words[0] == "-h") return told(usage_of(commands));
   if (words[0] == "--version") return told(tools::version_text(tools::build_commit()));
-  const auto command = std::find_if(std::begin(commands), std::end(commands),
-                                    [&](const tools::Command& known) { return known.name == words[0]; });
+  const auto command = std::ranges::find(commands, words[0], &tools::Command::name);
   if (command == std::end(commands)) throw UsageError("unknown command " + words[0]);
   words.erase(words.begin());
   add_limits(words, transport.ranks_here());

@@ -56,8 +56,7 @@ studies::TextTable ranks_table(std::span<const RanksRun> runs) {
   studies::TextTable table{
       {"scaling", "ranks", "maze", "clock", "CPU", "CPU a cell", "of 1 rank", "sent a cell", "peak a rank"}, 1, {}};
   for (const RanksRun& run : runs) {
-    const auto first =
-        std::find_if(runs.begin(), runs.end(), [&](const RanksRun& r) { return r.is_strong == run.is_strong; });
+    const auto first = std::ranges::find(runs, run.is_strong, &RanksRun::is_strong);
     const double cpu_ns = 1e9 * run.sum(&RankUse::cpu_s) / run.cells();
     table.rows.push_back({std::string(run.scaling()), std::to_string(run.ranks),
                           fmt::format("{}x{}", run.rows, run.cols), fmt::format("{:.2f} s", run.seconds),

@@ -105,24 +105,16 @@ requires(!std::is_trivially_copyable_v<std::variant<Ts...>>) void put(Ar& ar, st
 
 template <class Ar>
 void put(Ar& ar, WallSet& walls) {
-  std::uint8_t bytes = walls.holds_packed()   ? sizeof(PackedWall)
-                       : walls.holds_floats() ? sizeof(FloatWall)
-                                              : sizeof(DoubleWall);
+  auto bytes = walls.visit([](auto list) { return static_cast<std::uint8_t>(sizeof list[0]); });
   put(ar, bytes);
-  const auto block = [&]<class Wall>(Wall) {
-    RawVector<Wall> list;
-    if constexpr (!Ar::reads) {
-      walls.visit([&](auto span) {
-        if constexpr (std::is_same_v<std::remove_cv_t<typename decltype(span)::value_type>, Wall>) {
-          list.assign(span.begin(), span.end());
-        }
-      });
-    }
+  const auto block = [&]<class Wall>(std::span<const Wall> own) {
+    RawVector<Wall> list(own.begin(), own.end());
     put(ar, list);
     if constexpr (Ar::reads) walls = WallSet(std::move(list));
   };
-  if (bytes == sizeof(PackedWall)) return block(PackedWall());
-  bytes == sizeof(FloatWall) ? block(FloatWall{}) : block(DoubleWall{});
+  if constexpr (!Ar::reads) return walls.visit(block);
+  if (bytes == sizeof(PackedWall)) return block(std::span<const PackedWall>());
+  bytes == sizeof(FloatWall) ? block(std::span<const FloatWall>()) : block(std::span<const DoubleWall>());
 }
 
 template <class Ar>
@@ -180,7 +172,6 @@ WARREN_ARCHIVED(PackedMaze, file, hash)
 WARREN_ARCHIVED(PricedArea, factor, corners, line)
 WARREN_ARCHIVED(MaskCells, width, height, values, cell, origin, yaw_rad, image)
 WARREN_ARCHIVED(PriceMask, kind, file, factor, base, multiplier, read)
-WARREN_ARCHIVED(KeepOut, corners, line)
 WARREN_ARCHIVED(Prices, clearance, areas, masks, keep_out, unknown)
 WARREN_ARCHIVED(Scene, walls, polygons, seams, spheres, boxes, solids, bounds, clearance, maze, formula, packed, robot,
                 arm, start, goal, other_goals, named_start, named_goals, goal_pose, grid, prices, map, source)

@@ -39,9 +39,7 @@ py::bytes picture_of_world(const Scene& scene, const std::string& format, const 
     const Scene& shown = with_map_walls(scene, copy, execution);
     Picture picture{.scene = shown, .start = plane_point(scene.start), .goal = plane_point(scene.goal)};
     picture.title = description_of(scene);
-    Drawing drawing;
-    if (options.heading) add_heading_of_world(drawing, shown, *options.heading, execution);
-    picture.layers = drawing.layers;
+    if (options.heading) add_heading_of_world(picture, shown, *options.heading, execution);
     return drawn(picture, format, options, execution);
   });
 }
@@ -52,10 +50,10 @@ py::bytes picture_of_answer(const KeptAnswer& kept, const Scene& scene, const st
   return CallLimits().run([&](const Execution& execution) {
     std::optional<Scene> copy;
     const Scene& shown = with_map_walls(scene, copy, execution);
-    Drawing drawing = drawing_of(shown, kept.answer, kept.made, execution, options.heading);
-    if (kept.made.roadmap.states.empty()) drawing.roadmap.reset();  // nothing was kept: no empty layers
-    if (moving && !kept.answer.path.empty()) animate(drawing);
-    return drawn(picture_of(shown, drawing), format, options, execution);
+    Picture picture = drawing_of(shown, kept.answer, kept.made, execution, options.heading);
+    if (kept.made.roadmap.states.empty()) picture.roadmap.reset();  // nothing was kept: no empty layers
+    if (moving && !kept.answer.path.empty()) animate(picture);
+    return drawn(picture, format, options, execution);
   });
 }
 

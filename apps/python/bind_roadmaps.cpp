@@ -22,34 +22,6 @@ namespace py = pybind11;
 using namespace py::literals;
 namespace {
 
-/// Rows of edges as RoadmapParts has them, with their lengths.
-struct EdgeRows {
-  RawVector<EdgeEnd> first;
-  RawVector<VertexId> to;
-  RawVector<double> lengths;
-};
-
-/// The edges that are known to be free. Throws Stopped.
-EdgeRows free_rows(const KeptRoadmap& kept, const Execution& execution) {
-  const RoadmapArrays& arrays = kept.arrays(execution);
-  const RoadmapParts parts = arrays.parts();
-  const RoadmapQuery* asked = kept.roadmap().lattice == nullptr ? &kept.query(execution) : nullptr;
-  execution.reserve(parts.first.size_bytes() + parts.to.size() * (sizeof(VertexId) + sizeof(double)));
-  EdgeRows rows;
-  rows.first.reserve(parts.first.size());
-  rows.first.push_back(0);
-  for (std::size_t v = 0; v < parts.vertex_count(); ++v) {
-    execution.poll(v);
-    for (std::size_t end = parts.first[v]; end < parts.first[v + 1]; ++end) {
-      if (parts.state_of_end(end) != EdgeState::free) continue;
-      rows.to.push_back(parts.to[end]);
-      rows.lengths.push_back(kept.length(static_cast<VertexId>(v), parts.to[end], asked));
-    }
-    rows.first.push_back(static_cast<EdgeEnd>(rows.to.size()));
-  }
-  return rows;
-}
-
 /// indptr, indices and lengths of all edges: views that keep the roadmap, `self`, alive.
 py::tuple all_rows(const py::object& self) {
   auto& kept = self.cast<KeptRoadmap&>();
@@ -68,12 +40,30 @@ py::tuple all_rows(const py::object& self) {
                         view_of(lengths->data(), shape_of(lengths->size()), self));
 }
 
-/// The same of the free edges, in arrays of their own.
+/// The same of the edges that are known to be free, in arrays of their own.
 py::tuple free_rows_of(KeptRoadmap& kept) {
   const Asking asking(kept);
-  EdgeRows rows = CallLimits().run([&](const Execution& execution) { return free_rows(kept, execution); });
-  return py::make_tuple(array_of<std::int32_t>(std::move(rows.first)), array_of<std::int32_t>(std::move(rows.to)),
-                        array_of<double>(std::move(rows.lengths)));
+  RawVector<EdgeEnd> first;
+  RawVector<VertexId> to;
+  RawVector<double> lengths;
+  CallLimits().run([&](const Execution& execution) {
+    const RoadmapParts parts = kept.arrays(execution).parts();
+    const RoadmapQuery* asked = kept.roadmap().lattice == nullptr ? &kept.query(execution) : nullptr;
+    execution.reserve(parts.first.size_bytes() + parts.to.size() * (sizeof(VertexId) + sizeof(double)));
+    first.reserve(parts.first.size());
+    first.push_back(0);
+    for (std::size_t v = 0; v < parts.vertex_count(); ++v) {
+      execution.poll(v);
+      for (std::size_t end = parts.first[v]; end < parts.first[v + 1]; ++end) {
+        if (parts.state_of_end(end) != EdgeState::free) continue;
+        to.push_back(parts.to[end]);
+        lengths.push_back(kept.length(static_cast<VertexId>(v), parts.to[end], asked));
+      }
+      first.push_back(static_cast<EdgeEnd>(to.size()));
+    }
+  });
+  return py::make_tuple(array_of<std::int32_t>(std::move(first)), array_of<std::int32_t>(std::move(to)),
+                        array_of<double>(std::move(lengths)));
 }
 
 /// 0 unchecked, 1 free, 2 blocked: of each edge end.

@@ -88,15 +88,6 @@ KeptAnswer solve_scene(const Scene& scene, py::dict keywords, bool keep, bool ex
   return finished(std::move(kept), keep, limits);
 }
 
-py::dict told(const Verdict& verdict, const std::optional<NarrowPlace>& narrow) {
-  const auto& violation = verdict.first_violation;
-  return py::dict(
-      "verified"_a = verdict.verified, "length"_a = verdict.length, "min_clearance"_a = verdict.min_clearance,
-      "violation"_a =
-          violation ? py::object(py::make_tuple(violation->leg, violation->distance, violation->obstacle)) : py::none(),
-      "narrowest"_a = narrowest_json(narrow), "ended"_a = py::none());
-}
-
 /// With explain the narrowest place of a free path, too; "ended" says what stopped the search for it.
 py::dict judge(const Scene& scene, RecordedAnswer answer, py::dict keywords) {
   CallLimits limits = take_limits(keywords);
@@ -118,9 +109,12 @@ py::dict judge(const Scene& scene, RecordedAnswer answer, py::dict keywords) {
     return said;
   });
   if (ended) limits.raise_what_stopped(*ended);
-  py::dict account = told(verdict, narrow);
-  if (ended) account["ended"] = text_of(*ended);
-  return account;
+  const auto& violation = verdict.first_violation;
+  return py::dict(
+      "verified"_a = verdict.verified, "length"_a = verdict.length, "min_clearance"_a = verdict.min_clearance,
+      "violation"_a =
+          violation ? py::object(py::make_tuple(violation->leg, violation->distance, violation->obstacle)) : py::none(),
+      "narrowest"_a = narrowest_json(narrow), "ended"_a = ended ? std::optional(text_of(*ended)) : std::nullopt);
 }
 
 /// Its states have as many numbers as it has joints, which the judge counts.

@@ -16,17 +16,6 @@
 namespace warren::studies {
 namespace {
 
-/// The distribution of what `figure` gives for the runs that it gives anything for.
-template <class Figure>
-std::optional<Distribution> distribution(const Contender& contender, const Figure& figure) {
-  std::vector<double> values;
-  values.reserve(contender.runs.size());
-  for (const ComparedRun& run : contender.runs) {
-    if (const std::optional<double> value = figure(run)) values.push_back(*value);
-  }
-  return distribution_of(values);
-}
-
 Interval success_of(const Contender& contender, const ComparisonRow& row) {
   if (row.runs == 0) return {0.0, 1.0};
   const double solved = row.solved > 0 ? 1.0 : 0.0;
@@ -93,22 +82,27 @@ ComparisonRow row_of(const Contender& contender) {
   row.runs = contender.runs.size();
   for (const ComparedRun& run : contender.runs) row.solved += run.solved() ? 1 : 0;
   row.success = success_of(contender, row);
-  /// A figure, or one that some runs have.
-  const auto of_solved = [&](auto ComparedRun::*figure) {
-    return distribution(
-        contender, [&](const ComparedRun& r) { return r.solved() ? std::optional<double>(r.*figure) : std::nullopt; });
+  // Of a figure, or of one that some of the runs have.
+  const auto of = [&](const auto& runs, auto ComparedRun::*figure) {
+    std::vector<double> values;
+    for (const ComparedRun& run : contender.runs) {
+      const std::optional<double> value = run.*figure;
+      if (value && runs(run)) values.push_back(*value);
+    }
+    return distribution_of(values);
   };
-  row.length = of_solved(&ComparedRun::length);
-  row.priced_cost = distribution(
-      contender, [](const ComparedRun& r) { return r.solved() && r.is_priced ? r.cost : std::optional<double>(); });
-  row.hops = of_solved(&ComparedRun::hops);
-  row.min_clearance = of_solved(&ComparedRun::min_clearance);
-  row.cells = of_solved(&ComparedRun::cells);
-  row.turn_rad = of_solved(&ComparedRun::turn_rad);
-  row.search_s = of_solved(&ComparedRun::search_s);
-  row.expanded =
-      distribution(contender, [](const ComparedRun& r) { return std::optional(static_cast<double>(r.expanded)); });
-  row.time_s = distribution(contender, [](const ComparedRun& r) { return std::optional(r.time_s); });
+  const auto all = [](const ComparedRun&) { return true; };
+  const auto solved = [](const ComparedRun& run) { return run.solved(); };
+  const auto priced = [](const ComparedRun& run) { return run.solved() && run.is_priced; };
+  row.length = of(solved, &ComparedRun::length);
+  row.priced_cost = of(priced, &ComparedRun::cost);
+  row.hops = of(solved, &ComparedRun::hops);
+  row.min_clearance = of(solved, &ComparedRun::min_clearance);
+  row.cells = of(solved, &ComparedRun::cells);
+  row.turn_rad = of(solved, &ComparedRun::turn_rad);
+  row.search_s = of(solved, &ComparedRun::search_s);
+  row.expanded = of(all, &ComparedRun::expanded);
+  row.time_s = of(all, &ComparedRun::time_s);
   return row;
 }
 
@@ -142,9 +136,8 @@ std::vector<NamedContender> named_contenders(const Comparison& comparison, std::
     all.push_back(name_parts(c, comparison.problems[problem].kind.empty()));
   }
   const auto is_common = [&](const std::string& part) {
-    return all.size() > 1 && std::all_of(all.begin(), all.end(), [&](const auto& parts) {
-             return std::find(parts.begin(), parts.end(), part) != parts.end();
-           });
+    const auto has_it = [&](const auto& parts) { return std::ranges::find(parts, part) != parts.end(); };
+    return all.size() > 1 && std::ranges::all_of(all, has_it);
   };
   for (std::size_t i = 0; i < all.size(); ++i) {
     std::vector<std::string> own;

@@ -172,39 +172,36 @@ std::optional<BoxPlot> box_plot(const Comparison& comparison, std::size_t proble
 
 using Words = std::vector<std::pair<std::string, std::string>>;
 
+struct ShownValue {
+  double value;
+  Vec2 span;  ///< its interval or quartiles
+};
+
 struct ShownFigure {
   std::string_view name;
-  std::string_view label;                                 ///< of its axis
-  std::optional<Vec2> (*span)(const ComparisonRow& row);  ///< its interval or quartiles
-  std::optional<double> (*value)(const ComparisonRow& row);
+  std::string_view label;  ///< of its axis
+  std::optional<ShownValue> (*of)(const ComparisonRow& row);
   std::string (*text)(double value);
 };
 
 template <auto Field>
-std::optional<double> median(const ComparisonRow& row) {
-  return row.*Field ? std::optional((row.*Field)->median) : std::nullopt;
+std::optional<ShownValue> median(const ComparisonRow& row) {
+  if (!(row.*Field)) return std::nullopt;
+  return ShownValue{(row.*Field)->median, {(row.*Field)->q1, (row.*Field)->q3}};
 }
-template <auto Field>
-std::optional<Vec2> quartiles(const ComparisonRow& row) {
-  return row.*Field ? std::optional(Vec2{(row.*Field)->q1, (row.*Field)->q3}) : std::nullopt;
-}
-std::optional<double> success(const ComparisonRow& row) {
+std::optional<ShownValue> success(const ComparisonRow& row) {
   if (row.runs == 0) return std::nullopt;
-  return 100.0 * static_cast<double>(row.solved) / static_cast<double>(row.runs);
-}
-std::optional<Vec2> success_interval(const ComparisonRow& row) {
-  return Vec2{100.0 * row.success.low, 100.0 * row.success.high};
+  return ShownValue{100.0 * static_cast<double>(row.solved) / static_cast<double>(row.runs),
+                    {100.0 * row.success.low, 100.0 * row.success.high}};
 }
 std::string per_cent(double value) { return fmt::format("{:.0f} %", value); }
 
 constexpr std::size_t most_panels = 60;
 
 constexpr ShownFigure figures[] = {
-    {"runs solved", "per cent of the runs, 95 % interval", success_interval, success, per_cent},
-    {"median length", "length, with quartiles", quartiles<&ComparisonRow::length>, median<&ComparisonRow::length>,
-     human_number},
-    {"median time", "seconds, with quartiles", quartiles<&ComparisonRow::time_s>, median<&ComparisonRow::time_s>,
-     precise_seconds},
+    {"runs solved", "per cent of the runs, 95 % interval", success, per_cent},
+    {"median length", "length, with quartiles", median<&ComparisonRow::length>, human_number},
+    {"median time", "seconds, with quartiles", median<&ComparisonRow::time_s>, precise_seconds},
 };
 
 const std::string& word_of(const Words& dealt, const std::string& name) {
@@ -276,7 +273,8 @@ HeatMap heat_map(const Family& family, const ShownFigure& figure) {
     const std::size_t column = add_once(map.columns, word_of(c->dealt, family.axes[0]));
     const std::size_t row = add_once(map.rows, word_of(c->dealt, family.axes[1]));
     HeatMap::Cell& cell = map.cells[row * map.columns.size() + column];
-    cell.value = figure.value(row_of(*c));
+    const auto shown = figure.of(row_of(*c));
+    cell.value = shown ? std::optional(shown->value) : std::nullopt;
     cell.text = cell.value ? figure.text(*cell.value) : "none";
   }
   return map;
@@ -291,11 +289,10 @@ void add_series(Plot& plot, const Family& family, const std::string& option, con
     if (const auto x = number_in_word(word_of(c->dealt, option))) by_value[*x] = c;
   }
   for (const auto& [x, c] : by_value) {
-    const ComparisonRow row = row_of(*c);
-    const auto y = figure.value(row);
+    const auto y = figure.of(row_of(*c));
     if (!y) continue;
-    series.points.push_back({x, *y});
-    series.spans.push_back(figure.span(row).value_or(Vec2{*y, *y}));
+    series.points.push_back({x, y->value});
+    series.spans.push_back(y->span);
   }
   if (by_value.size() > 1 && !series.points.empty()) plot.series.push_back(std::move(series));
 }
@@ -581,17 +578,16 @@ std::string note_on_heat_maps(const Comparison& comparison) {
 std::vector<PlotSheet> list_panels(const Comparison& comparison) {
   const std::vector<Family> families = families_of(comparison);
   std::vector<PlotSheet> panels = line_panels(families);
-  for (const Family& family : families) {
-    for (const ShownFigure& figure : figures) {
-      if (family.axes.size() == 2 && panels.size() < most_panels) panels.push_back(sheet_of(heat_map(family, figure)));
+  const auto add = [&](const auto& plot_of) {
+    for (const Family& family : families) {
+      for (const ShownFigure& figure : figures) {
+        if (family.axes.size() != 2 || panels.size() >= most_panels) continue;
+        if (const auto plot = plot_of(family, figure)) panels.push_back(sheet_of(*plot));
+      }
     }
-  }
-  for (const Family& family : families) {
-    for (const ShownFigure& figure : figures) {
-      if (family.axes.size() != 2 || panels.size() >= most_panels) continue;
-      if (const auto plot = sweep_plot(family, figure)) panels.push_back(sheet_of(*plot));
-    }
-  }
+  };
+  add([](const Family& family, const ShownFigure& figure) { return std::optional(heat_map(family, figure)); });
+  add(sweep_plot);
   return panels;
 }
 

@@ -391,7 +391,7 @@ std::string comparison_summary(const Comparison& comparison, const Palette& pale
   for (const std::string& note : comparison.notes) text += named_line(palette, "note", printable(note));
   if (comparison.clock_s > 0.0)
     text += named_line(palette, "clock", precise_seconds(comparison.clock_s) + " a reading, taken off each time");
-  text += named_line(palette, "machine", text_of(this_machine()));
+  text += named_line(palette, "machine", machine_text());
   if (comparison.stopped) text += palette.doubtful(text_of(*comparison.stopped)) + ": these are the runs so far\n";
   return text;
 }
@@ -402,14 +402,14 @@ std::string comparison_page(const Comparison& comparison, const std::string& com
                   .tables = comparison_tables(comparison),
                   .remarks = comparison.notes};
   for (const PlotSheet& sheet : comparison_panels(comparison)) page.plots.push_back(sheet.svg());
-  page.notes.push_back(fmt::format("Machine: {}.{}", text_of(this_machine()),
+  page.notes.push_back(fmt::format("Machine: {}.{}", machine_text(),
                                    comparison.stopped ? " Interrupted: these are the runs so far." : ""));
   return page.html();
 }
 
 std::string comparison_json(const Comparison& comparison) {
   Json json{{"schema", "warren.compare/1"}, {"warren_version", WARREN_VERSION}};
-  json["machine"] = machine_json(this_machine());
+  json["machine"] = machine_json();
   if (comparison.clock_s > 0.0) json["clock_s"] = comparison.clock_s;
   if (comparison.stopped) json["stopped_by"] = name_of(*comparison.stopped);
   json["rows"] = Json::array();
@@ -491,7 +491,7 @@ std::string ompl_log(const Comparison& comparison, const OmplExperiment& experim
   std::string text =
       fmt::format("warren version {}\nExperiment {}\nRunning on {}\nStarting at {}\n<<<|\n{}\n|>>>\n<<<|\n{}\n|>>>\n",
                   WARREN_VERSION, printable(experiment.name), experiment.hostname, experiment.date,
-                  printable(experiment.setup), text_of(this_machine()));
+                  printable(experiment.setup), machine_text());
   fmt::format_to(std::back_inserter(text),
                  "{} is the random seed\n{} seconds per run\n{} MB per run\n{} runs per planner\n"
                  "{} seconds spent to collect the data\n1 enum type\n{}\n{} planners\n",

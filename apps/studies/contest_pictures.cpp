@@ -211,20 +211,18 @@ std::vector<std::string> write_named(const std::string& folder, const std::strin
 std::vector<std::string> draw_paths(const std::string& folder, const std::string& name, Picture picture,
                                     const std::vector<std::string>& labels, std::span<const std::vector<Vec2>> paths,
                                     const PictureOptions& look, const Execution& execution) {
-  std::vector<PictureLayer> layers;
-  if (picture.scene.map) layers = cells_of_map(*picture.scene.map, execution);
+  if (picture.scene.map) picture.layers = cells_of_map(*picture.scene.map, execution);
   const double extent = extent_of(paths);
   const double dash = extent > 0.0 ? extent / 60.0 : 1.0;  // some sixty across all that is drawn
   std::vector<PolygonSet> lines = lines_side_by_side(paths, dash, execution);
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    layers.push_back({.id = fmt::format("path_{}", i + 1),
-                      .label = labels[i],
-                      .part = Part::path,
-                      .color = colors::series[i % colors::series.size()],
-                      .width = 0.8 * widths::path,
-                      .lines = std::move(lines[i])});
+    picture.layers.push_back({.id = fmt::format("path_{}", i + 1),
+                              .label = labels[i],
+                              .part = Part::path,
+                              .color = colors::series[i % colors::series.size()],
+                              .width = 0.8 * widths::path,
+                              .lines = std::move(lines[i])});
   }
-  picture.layers = layers;
   picture.title = title_of(picture.scene);
   picture.description = description_of(picture.scene);
   return write_named(folder, name, picture, look, execution);
@@ -238,74 +236,10 @@ const ComparedRun* median_run(const Contender& contender) {
   }
   if (solved.empty()) return nullptr;
   const auto middle = solved.begin() + static_cast<std::ptrdiff_t>((solved.size() - 1) / 2);
-  std::nth_element(solved.begin(), middle, solved.end(), [](const ComparedRun* a, const ComparedRun* b) {
-    return a->length != b->length ? a->length < b->length : a->seed < b->seed;
-  });
+  std::ranges::nth_element(solved, middle, {},
+                           [](const ComparedRun* run) { return std::pair(run->length, run->seed); });
   return *middle;
 }
-
-class ContestPictures {
- public:
-  ContestPictures(const Scene& scene, std::uint64_t first_seed, const std::string& folder, const PictureOptions& look,
-                  const Execution& execution)
-      : scene_(scene), first_seed_(first_seed), folder_(folder), look_(look), execution_(execution) {}
-
-  void draw(const Contender& contender, const PlannerContender& asked) {
-    const ComparedRun* run = median_run(contender);
-    const std::uint64_t seed = run != nullptr ? run->seed : first_seed_;
-    ByProducts made;
-    const Answer answer = solve_contender(scene_, asked, seed, execution_, &made);
-    const Drawing drawing = drawing_of(scene_, answer, std::move(made), execution_, look_.heading);
-    const std::string said = options_text(contender);
-    const std::string title = fmt::format("{}, {}{}seed {}: {}", title_of(scene_), contender.planner,
-                                          said.empty() ? ", " : ", " + said + ", ", seed, name_of(answer.outcome));
-    write(unused(file_name(contender.planner + " " + said)), title, picture_of(scene_, drawing));
-    if (drawing.path.size() > 1) {  // an arm's is in joint space
-      const std::string label = said.empty() ? contender.planner : contender.planner + ", " + said;
-      labels_.push_back(fmt::format("{}: length {}", label, human_number(run != nullptr ? run->length : 0.0)));
-      paths_.push_back(without_arcs(drawing.path, drawing.path_turns));
-      overview_.start = drawing.start;
-      overview_.goal = drawing.goal;
-    }
-    for (const DrawingPage& page : drawing.pages) {
-      const std::string name = file_name(contender.planner) + "_" + page.id;
-      if (!names_.insert(name).second) continue;
-      write(name, title_of(scene_) + ": " + page.id, picture_of(scene_, drawing, page));
-    }
-  }
-  /// Returns what was drawn otherwise than usual, of all pictures.
-  std::vector<std::string> finish() {
-    if (paths_.size() > 1) {
-      overview_.subtitle = fmt::format("{}\nof each planner the path of median length", description_of(scene_));
-      keep(draw_paths(folder_, unused("paths") + ".svg", overview_, labels_, paths_, look_, execution_));
-    }
-    return std::move(notes_);
-  }
-
- private:
-  std::string unused(const std::string& wanted) {
-    std::string name = wanted;
-    for (int i = 2; !names_.insert(name).second; ++i) name = fmt::format("{}_{}", wanted, i);
-    return name;
-  }
-  void keep(std::vector<std::string> notes) { std::move(notes.begin(), notes.end(), std::back_inserter(notes_)); }
-  void write(const std::string& name, const std::string& title, Picture picture) {
-    picture.title = title;
-    picture.description = description_of(scene_);
-    keep(write_named(folder_, name + ".svg", picture, look_, execution_));
-  }
-
-  const Scene& scene_;
-  std::uint64_t first_seed_;
-  const std::string& folder_;
-  const PictureOptions& look_;
-  const Execution& execution_;
-  std::set<std::string> names_;
-  std::vector<std::string> labels_;
-  std::vector<std::vector<Vec2>> paths_;
-  Picture overview_{.scene = scene_};
-  std::vector<std::string> notes_;
-};
 
 struct FoundPath {
   SearchVariant first;
@@ -361,12 +295,57 @@ std::vector<PolygonSet> lines_side_by_side(std::span<const std::vector<Vec2>> pa
 std::vector<std::string> draw_contest(const Scene& scene, const PlannerContestOptions& options,
                                       const Comparison& comparison, const std::string& folder,
                                       const PictureOptions& look, const Execution& execution) {
-  ContestPictures pictures(scene, options.first_seed, folder, look, execution);
+  std::set<std::string> names;
+  const auto unused = [&](const std::string& wanted) {
+    std::string name = wanted;
+    for (int i = 2; !names.insert(name).second; ++i) name = fmt::format("{}_{}", wanted, i);
+    return name;
+  };
+  std::vector<std::string> notes;
+  const auto keep = [&](std::vector<std::string> more) { std::ranges::move(more, std::back_inserter(notes)); };
+  const auto write = [&](const std::string& name, const std::string& title, Picture& picture) {
+    picture.title = title;
+    picture.description = description_of(scene);
+    keep(write_named(folder, name + ".svg", picture, look, execution));
+  };
+  std::vector<std::string> labels;
+  std::vector<std::vector<Vec2>> paths;
+  Picture overview{.scene = scene};
   for (std::size_t i = 0; i < options.contenders.size(); ++i) {
     execution.check();
-    pictures.draw(comparison.contenders[i], options.contenders[i]);
+    const Contender& contender = comparison.contenders[i];
+    const ComparedRun* run = median_run(contender);
+    const std::uint64_t seed = run != nullptr ? run->seed : options.first_seed;
+    ByProducts made;
+    const Answer answer = solve_contender(scene, options.contenders[i], seed, execution, &made);
+    Picture picture = drawing_of(scene, answer, std::move(made), execution, look.heading);
+    const std::string said = options_text(contender);
+    const std::string title = fmt::format("{}, {}{}seed {}: {}", title_of(scene), contender.planner,
+                                          said.empty() ? ", " : ", " + said + ", ", seed, name_of(answer.outcome));
+    write(unused(file_name(contender.planner + " " + said)), title, picture);
+    if (picture.path.size() > 1) {  // an arm's is in joint space
+      const std::string label = said.empty() ? contender.planner : contender.planner + ", " + said;
+      labels.push_back(fmt::format("{}: length {}", label, human_number(run != nullptr ? run->length : 0.0)));
+      paths.push_back(without_arcs(picture.path, picture.path_turns));
+      overview.start = picture.start;
+      overview.goal = picture.goal;
+    }
+    for (PicturePage& page : picture.pages) {
+      const std::string name = file_name(contender.planner) + "_" + page.id;
+      if (!names.insert(name).second) continue;
+      Picture other{.scene = scene,
+                    .layers = std::move(page.layers),
+                    .start = picture.start,
+                    .goal = picture.goal,
+                    .subtitle = picture.subtitle};
+      write(name, title_of(scene) + ": " + page.id, other);
+    }
   }
-  return pictures.finish();
+  if (paths.size() > 1) {
+    overview.subtitle = fmt::format("{}\nof each planner the path of median length", description_of(scene));
+    keep(draw_paths(folder, unused("paths") + ".svg", std::move(overview), labels, paths, look, execution));
+  }
+  return notes;
 }
 
 std::string file_name(std::string_view text, char between) {
@@ -394,7 +373,7 @@ std::vector<std::string> draw_searches(const Scene& world, const SearchGraph& gr
   PlannedRoadmap<Vec2> roadmap{.states = {}, .graph = graph.graph, .search_tree = {}};
   for (const Vec2 p : graph.at) roadmap.states.push_back(p);
   Picture picture{.scene = scene,
-                  .roadmap = &roadmap,
+                  .roadmap = std::move(roadmap),
                   .start = graph.at[graph.start],
                   .goal = graph.at[graph.goal],
                   .subtitle = fmt::format("{}\ngraph of {}: {}, {}", description_of(scene), graph.kind,
@@ -408,7 +387,7 @@ std::vector<std::string> draw_searches(const Scene& world, const SearchGraph& gr
     for (const VertexId v : all[i].path) paths[i].push_back(graph.at[v]);
   }
   if (all.empty()) picture.subtitle += "; no search found a path";
-  return draw_paths(folder, "searches.svg", picture, labels, paths, look, execution);
+  return draw_paths(folder, "searches.svg", std::move(picture), labels, paths, look, execution);
 }
 
 }  // namespace warren::studies

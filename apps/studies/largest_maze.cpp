@@ -99,47 +99,38 @@ Spot after(const Spot& spot, const RawVector<Direction>& steps) {
   return {spot.gate + 1, spot.cell + ahead[steps[spot.gate]]};
 }
 
+/// One side's corner of the string, and whose gate's it is.
+struct Corner {
+  Vec2 at;
+  Spot spot;
+};
+
 /// The taut string through the gates. Half-integer coordinates below 2^23 make every turn exact.
-class Funnel {
- public:
-  Funnel(Vec2 start, const Execution& execution)
-      : execution_(execution), path_{start}, left_{start, {}}, right_{start, {}} {}
-
-  Path<Vec2> pull(const RawVector<Direction>& steps, Vec2 goal) {
-    std::size_t gates_seen = 0;
-    for (Spot at; at.gate <= steps.size(); at = after(at, steps)) {
-      if (++gates_seen % poll_every == 0) execution_.check();
-      const Gate gate = gate_at(at, steps, goal);
-      if (!narrow(right_, left_, 1.0, {gate.right, at}) || !narrow(left_, right_, -1.0, {gate.left, at}))
-        at = left_.spot;
-    }
-    if (path_.back() != goal) push_asked(path_, goal, execution_);
-    return std::move(path_);
-  }
-
- private:
-  /// One side's corner of the string, and whose gate's it is.
-  struct Corner {
-    Vec2 at;
-    Spot spot;
-  };
-  /// False where the string bends round the other side's corner: the walk goes on after that corner's gate. inwards:
-  /// the sign of a turn from this side to the other one.
-  bool narrow(Corner& own, Corner& other, double inwards, const Corner& next) {
-    const Vec2 apex = path_.back();
+Path<Vec2> funnel(Vec2 start, const RawVector<Direction>& steps, Vec2 goal, const Execution& execution) {
+  Path<Vec2> path{start};
+  Corner left_end{start, {}};
+  Corner right_end{start, {}};
+  // False where the string bends round the other side's corner: the walk goes on after that corner's gate. inwards: the
+  // sign of a turn from this side to the other one.
+  const auto narrow = [&](Corner& own, Corner& other, double inwards, const Corner& next) {
+    const Vec2 apex = path.back();
     const auto turn_from = [&](Vec2 corner) { return inwards * cross(corner - apex, next.at - apex); };
     if (turn_from(own.at) < 0.0) return true;
     const bool bends = apex != own.at && turn_from(other.at) > 0.0;
-    if (bends) push_asked(path_, other.at, execution_);
+    if (bends) push_asked(path, other.at, execution);
     own = bends ? other : next;
     return !bends;
+  };
+  std::size_t gates_seen = 0;
+  for (Spot at; at.gate <= steps.size(); at = after(at, steps)) {
+    if (++gates_seen % poll_every == 0) execution.check();
+    const Gate gate = gate_at(at, steps, goal);
+    if (!narrow(right_end, left_end, 1.0, {gate.right, at}) || !narrow(left_end, right_end, -1.0, {gate.left, at}))
+      at = left_end.spot;
   }
-
-  const Execution& execution_;
-  Path<Vec2> path_;
-  Corner left_;
-  Corner right_;
-};
+  if (path.back() != goal) push_asked(path, goal, execution);
+  return path;
+}
 
 std::uint32_t extent(double cells) {
   return static_cast<std::uint32_t>(std::clamp(std::round(cells), 1.0, 4294967295.0));
@@ -377,7 +368,7 @@ Path<Vec2> bfs_funnel(const Scene& scene, const Execution& execution) {
   CellWalk walk(cells, execution);
   if (!walk.reaches(first, last)) return {};
   const Vec2 goal{cells.cols() + 0.5, static_cast<double>(cells.rows())};
-  return Funnel({0.5, 1.0}, execution).pull(walk.steps(first, last), goal);
+  return funnel({0.5, 1.0}, walk.steps(first, last), goal, execution);
 }
 
 LargestResult find_largest(const LargestOptions& options, const Execution& execution,
@@ -413,7 +404,7 @@ std::string largest_summary(const LargestOptions& options, const LargestResult& 
   std::string text = headline(options, result, palette);
   if (!result.best.empty()) add_best(text, options, result, palette);
   add_limit(text, options, result, palette);
-  line(text, palette, "machine", text_of(this_machine()));
+  line(text, palette, "machine", machine_text());
   return text;
 }
 
@@ -437,7 +428,7 @@ std::string largest_json(const LargestOptions& options, const LargestResult& res
   add_figures(json, result);
   const MemoryTouch& touch = result.touch;
   json["first_touch"] = {{"bytes", touch.bytes}, {"cold_s", touch.cold_s}, {"warm_s", touch.warm_s}};
-  json["machine"] = machine_json(this_machine());
+  json["machine"] = machine_json();
   json["not_begun"] = Json::array();
   for (const UnbegunSize& size : result.unbegun) {
     json["not_begun"].push_back({{"rows", size.rows}, {"cols", size.cols}, {"expected_bytes", size.expected_bytes}});
@@ -453,8 +444,7 @@ PlotSheet largest_plot(const LargestOptions& options, const LargestResult& resul
   PlotSeries largest{.name = "largest size, a seed each", .joined = false};
   for (const MazeTrial& t : result.trials) (t.verified ? tried : cut).points.push_back({t.cells(), t.solve_s});
   for (const MazeTrial& t : result.best) largest.points.push_back({t.cells(), t.solve_s});
-  std::sort(tried.points.begin(), tried.points.end(),
-            [](Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
+  std::ranges::sort(tried.points, {}, [](Vec2 p) { return std::pair(p.x, p.y); });
   const auto same_size = [](Vec2 a, Vec2 b) { return a.x == b.x; };
   tried.points.erase(std::unique(tried.points.begin(), tried.points.end(), same_size), tried.points.end());
   Plot plot{.title = "Largest maze solved within the budget",

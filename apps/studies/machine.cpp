@@ -118,15 +118,14 @@ void run_part(std::uint64_t seed) {
 
 }  // namespace
 
-Machine this_machine() { return {.cpu = cpu_model(), .cores = thread_count(0), .memory_bytes = machine_bytes()}; }
-
-std::string text_of(const Machine& machine) {
-  return fmt::format("{}, {} {}, {}", machine.cpu, machine.cores, machine.cores == 1 ? "core" : "cores",
-                     human_bytes(static_cast<double>(machine.memory_bytes)));
+std::string machine_text() {
+  const unsigned cores = thread_count(0);
+  return fmt::format("{}, {} {}, {}", cpu_model(), cores, cores == 1 ? "core" : "cores",
+                     human_bytes(static_cast<double>(machine_bytes())));
 }
 
-nlohmann::ordered_json machine_json(const Machine& machine) {
-  return {{"cpu", machine.cpu}, {"cores", machine.cores}, {"memory_bytes", machine.memory_bytes}};
+nlohmann::ordered_json machine_json() {
+  return {{"cpu", cpu_model()}, {"cores", thread_count(0)}, {"memory_bytes", machine_bytes()}};
 }
 
 void restart_peak_memory() {
@@ -161,8 +160,7 @@ RunCounts operator-(const RunCounts& after, const RunCounts& before) {
 }
 
 std::optional<double> RunCounts::hardware_count(std::string_view name) const {
-  const auto at =
-      static_cast<std::size_t>(std::find(hardware_names.begin(), hardware_names.end(), name) - hardware_names.begin());
+  const auto at = static_cast<std::size_t>(std::ranges::find(hardware_names, name) - hardware_names.begin());
   return at < hardware.size() ? hardware[at] : std::nullopt;
 }
 
@@ -184,8 +182,7 @@ RunCounters::RunCounters(std::span<const PerfEvent> events) {
     files_.push_back(open_event(event));
     if (files_.back() < 0) error = errno;
   }
-  const bool none = std::all_of(files_.begin(), files_.end(), [](int file) { return file < 0; });
-  if (none) refusal_ = std::generic_category().message(error);
+  if (std::ranges::all_of(files_, [](int file) { return file < 0; })) refusal_ = std::generic_category().message(error);
 }
 
 RunCounters::~RunCounters() {

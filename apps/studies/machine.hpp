@@ -19,17 +19,11 @@
 
 namespace warren::studies {
 
-struct Machine {
-  std::string cpu;               ///< the model's name; "unknown CPU" where the system doesn't tell
-  unsigned cores = 1;            ///< that this process may use
-  std::size_t memory_bytes = 0;  ///< in all; 0 where the system doesn't tell
-};
-
-Machine this_machine();
-/// "Intel(R) Xeon(R), 2 cores, 31.4 GiB"
-std::string text_of(const Machine& machine);
+/// This one: "Intel(R) Xeon(R), 2 cores, 31.4 GiB". The name of its CPU's model, or "unknown CPU"; the cores that this
+/// process may use; its memory in all, 0 where the system doesn't tell.
+std::string machine_text();
 /// {"cpu": …, "cores": …, "memory_bytes": …}
-nlohmann::ordered_json machine_json(const Machine& machine);
+nlohmann::ordered_json machine_json();
 
 /// From now on peak_resident_bytes() tells the peak since now, where the system can do that.
 void restart_peak_memory();

@@ -234,36 +234,22 @@ void check_count(std::size_t contenders, std::size_t times) {
   throw UsageError(fmt::format("@planners: more than {} contenders come of these lists; shorten one", most_contenders));
 }
 
-std::vector<PlannerContender> dealt(const std::vector<PlannerContender>& contenders, const DealtOption& list) {
-  check_count(contenders.size(), list.values.size());
-  std::vector<PlannerContender> all;
-  for (const PlannerContender& contender : contenders) {
-    if (list.values.empty() || idles(contender.options, list.option)) {
-      all.push_back(contender);
+/// Each contender that takes them once with each of the values; give(contender, value): the word that says which.
+template <class Value, class Takes, class Give>
+void deal_out(std::vector<PlannerContender>& contenders, std::string_view name, const std::vector<Value>& values,
+              const Takes& takes, const Give& give) {
+  check_count(contenders.size(), values.size());
+  for (const PlannerContender& contender : std::exchange(contenders, {})) {
+    if (values.empty() || !takes(contender)) {
+      contenders.push_back(contender);
       continue;
     }
-    for (const DealtValue& value : list.values) {
-      all.push_back(contender);
-      copy_option(list.option, all.back().options, value.value);
-      if (list.values.size() > 1) all.back().dealt.emplace_back(name_of(list.option), value.word);
+    for (const Value& value : values) {
+      PlannerContender& one = contenders.emplace_back(contender);
+      const std::string word = give(one, value);
+      if (values.size() > 1) one.dealt.emplace_back(name, word);
     }
   }
-  return all;
-}
-
-std::vector<PlannerContender> with_clearances(const std::vector<PlannerContender>& contenders,
-                                              const std::vector<double>& clearances) {
-  check_count(contenders.size(), clearances.size());
-  std::vector<PlannerContender> all;
-  for (const PlannerContender& contender : contenders) {
-    for (const double clearance : clearances) {
-      all.push_back(contender);
-      all.back().question.clearance = clearance;
-      all.back().question.validate();
-      if (clearances.size() > 1) all.back().dealt.emplace_back("clearance", fmt::format("{}", clearance));
-    }
-  }
-  return clearances.empty() ? contenders : all;
 }
 
 std::vector<PlannerContender> contenders_of(const PlannerDeal& deal, PlannerKind planner) {
@@ -274,9 +260,19 @@ std::vector<PlannerContender> contenders_of(const PlannerDeal& deal, PlannerKind
   std::vector<PlannerContender> all{{usual, deal.question, {}}};
   for (DealtOption list : deal.lists) {
     std::erase_if(list.values, [&](const DealtValue& v) { return refusal(planner, list.option, v.value).has_value(); });
-    all = dealt(all, list);
+    const auto takes = [&](const PlannerContender& one) { return !idles(one.options, list.option); };
+    deal_out(all, name_of(list.option), list.values, takes, [&](PlannerContender& one, const DealtValue& value) {
+      copy_option(list.option, one.options, value.value);
+      return value.word;
+    });
   }
-  return with_clearances(all, deal.clearances);
+  const auto all_take = [](const PlannerContender&) { return true; };
+  deal_out(all, "clearance", deal.clearances, all_take, [](PlannerContender& one, double clearance) {
+    one.question.clearance = clearance;
+    one.question.validate();
+    return fmt::format("{}", clearance);
+  });
+  return all;
 }
 
 /// An option that some planner takes in this world is not for those that take it in others alone.

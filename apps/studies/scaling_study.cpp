@@ -148,8 +148,8 @@ void take_least(MazeTrial& least, const MazeTrial& other) {
 }
 
 ScalingRow row_of(const std::vector<const ScalingRun*>& runs) {
-  const ScalingRun& fastest = **std::min_element(
-      runs.begin(), runs.end(), [](const auto* a, const auto* b) { return a->trial.solve_s < b->trial.solve_s; });
+  const ScalingRun& fastest =
+      **std::ranges::min_element(runs, {}, [](const ScalingRun* run) { return run->trial.solve_s; });
   ScalingRow row{.fastest = fastest.trial, .runs = runs.size(), .counts = fastest.counts};
   row.fastest.seconds = runs.front()->trial.seconds;
   row.fastest.costs = runs.front()->trial.costs;
@@ -196,13 +196,12 @@ struct Pair {
   }
 };
 
-/// Was it solved, and the arithmetic beside it timed?
-bool counts(const ScalingRun& run) { return run.trial.verified && run.arithmetic_per_s > 0.0; }
-
-/// What the runs of a repeat have in common.
-auto repeat_of(const ScalingRun& run) {
-  const MazeTrial& t = run.trial;
-  return std::make_tuple(t.planner, t.sampler, t.pipeline, t.rows, t.cols, t.seed, run.repeat);
+std::vector<const ScalingRun*> solved_runs(const ScalingResult& result) {
+  std::vector<const ScalingRun*> solved;
+  for (const ScalingRun& run : result.runs) {
+    if (run.trial.verified) solved.push_back(&run);
+  }
+  return solved;
 }
 
 template <class Value>
@@ -228,8 +227,8 @@ ThreadGain gain_of(const std::vector<Pair>& pairs, unsigned cores) {
   ThreadGain gain{.first = pairs.front().more->trial, .pairs = pairs.size()};
   gain.gain = median(pairs, [](const Pair& p) { return p.gain(); });
   gain.arithmetic = median(pairs, [](const Pair& p) { return p.arithmetic(); });
-  std::vector<Pair> quiet;
-  std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(quiet), [&](const Pair& p) { return p.is_quiet(cores); });
+  std::vector<Pair> quiet = pairs;
+  std::erase_if(quiet, [&](const Pair& p) { return !p.is_quiet(cores); });
   gain.quiet_pairs = quiet.size();
   if (quiet.empty()) return gain;
   gain.quiet_gain = median(quiet, [](const Pair& p) { return p.gain(); });
@@ -422,7 +421,7 @@ TextTable gains_of(const ScalingResult& result) {
   TextTable table{{"planner", "size", "threads", "pairs", "gain", "arithmetic", "quiet pairs", "quiet gain"},
                   1,
                   "What threads gain, and what arithmetic alone gained in the same moments"};
-  for (const ThreadGain& gain : thread_gains(result, this_machine().cores)) {
+  for (const ThreadGain& gain : thread_gains(result, thread_count(0))) {
     table.rows.push_back({planner_text(gain.first), side_text(gain.first), std::to_string(gain.first.threads),
                           std::to_string(gain.pairs), fmt::format("{:.2f}", gain.gain),
                           fmt::format("{:.2f}", gain.arithmetic), std::to_string(gain.quiet_pairs),
@@ -488,19 +487,13 @@ ScalingResult run_scaling_study(const ScalingOptions& options, const Execution& 
 }
 
 std::vector<ScalingRow> scaling_rows(const ScalingResult& result) {
-  std::vector<const ScalingRun*> solved;
-  for (const ScalingRun& run : result.runs) {
-    if (run.trial.verified) solved.push_back(&run);
-  }
   const auto in_common = [](const ScalingRun* run) {
     const MazeTrial& t = run->trial;
     return std::tuple(t.planner, t.sampler, t.rows, t.cols, t.threads);
   };
   std::vector<ScalingRow> rows;
-  for (const auto& group : in_groups(solved, in_common)) rows.push_back(row_of(group));
-  std::stable_sort(rows.begin(), rows.end(), [](const ScalingRow& a, const ScalingRow& b) {
-    return std::tie(a.fastest.planner, a.fastest.sampler) < std::tie(b.fastest.planner, b.fastest.sampler);
-  });
+  for (const auto& group : in_groups(solved_runs(result), in_common)) rows.push_back(row_of(group));
+  std::ranges::stable_sort(rows, {}, way_of);
   add_speed_ups(rows);
   return rows;
 }
@@ -523,17 +516,19 @@ std::vector<std::pair<std::string, double>> stage_exponents(std::span<const Scal
 }
 
 std::vector<ThreadGain> thread_gains(const ScalingResult& result, unsigned cores) {
-  std::map<decltype(repeat_of(result.runs.front())), const ScalingRun*> fewest;
-  for (const ScalingRun& run : result.runs) {
-    if (!counts(run)) continue;
-    const ScalingRun*& least = fewest.try_emplace(repeat_of(run), &run).first->second;
-    if (run.trial.threads < least->trial.threads) least = &run;
-  }
+  std::vector<const ScalingRun*> timed = solved_runs(result);
+  std::erase_if(timed, [](const ScalingRun* run) { return !(run->arithmetic_per_s > 0.0); });
+  const auto repeat_of = [](const ScalingRun* run) {
+    const MazeTrial& t = run->trial;
+    return std::tuple(t.planner, t.sampler, t.pipeline, t.rows, t.cols, t.seed, run->repeat);
+  };
+  const auto threads = [](const ScalingRun* run) { return run->trial.threads; };
   std::vector<Pair> pairs;
-  for (const ScalingRun& run : result.runs) {
-    if (!counts(run)) continue;
-    const ScalingRun* const base = fewest.at(repeat_of(run));
-    if (base->trial.threads != run.trial.threads) pairs.push_back({base, &run});
+  for (const auto& repeat : in_groups(timed, repeat_of)) {
+    const ScalingRun* const base = *std::ranges::min_element(repeat, {}, threads);
+    for (const ScalingRun* run : repeat) {
+      if (threads(run) != threads(base)) pairs.push_back({base, run});
+    }
   }
   const auto in_common = [](const Pair& pair) {
     const MazeTrial& t = pair.more->trial;
@@ -578,10 +573,10 @@ std::string scaling_summary(const ScalingResult& result, const Palette& palette)
     text += named_line(palette, "exponents", "of least times against cells");
     text += exponents.text(palette);
   }
-  for (const ThreadGain& gain : thread_gains(result, this_machine().cores))
+  for (const ThreadGain& gain : thread_gains(result, thread_count(0)))
     text += named_line(palette, "threads", text_of(gain));
   text += named_line(palette, "noise", noise_text(rows));
-  text += named_line(palette, "machine", text_of(this_machine()));
+  text += named_line(palette, "machine", machine_text());
   if (result.signal) text += palette.doubtful("interrupted") + ": these are the runs so far\n";
   return text;
 }
@@ -591,7 +586,7 @@ std::string scaling_json(const ScalingOptions& options, const ScalingResult& res
   Json json{{"schema", "warren.scale/1"}, {"warren_version", WARREN_VERSION}, {"repeats", options.repeats}};
   json["algorithm"] = name_of(options.maze.algorithm);
   json["loops"] = options.maze.loops;
-  json["machine"] = machine_json(this_machine());
+  json["machine"] = machine_json();
   const bool counted = result.no_hardware_counts.empty();
   json["hardware_counts"] = counted ? Json(RunCounts::hardware_names) : Json(nullptr);
   if (!counted) json["no_hardware_counts"] = result.no_hardware_counts;
@@ -618,8 +613,7 @@ std::string scaling_json(const ScalingOptions& options, const ScalingResult& res
     entry["bytes_per_cell"] = static_cast<double>(row.peak_memory_bytes) / t.cells();
   }
   json["thread_gains"] = Json::array();
-  for (const ThreadGain& gain : thread_gains(result, this_machine().cores))
-    json["thread_gains"].push_back(gain_json(gain));
+  for (const ThreadGain& gain : thread_gains(result, thread_count(0))) json["thread_gains"].push_back(gain_json(gain));
   json["exponents"] = Json::object();
   for (const auto& [stage, exponent] : stage_exponents(rows)) json["exponents"][stage] = exponent;
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -653,10 +647,9 @@ std::string scaling_csv(const ScalingResult& result) {
 std::string scaling_page(const ScalingResult& result, const std::string& command_line) {
   const std::vector<ScalingRow> rows = scaling_rows(result);
   ReportPage page{.title = "Time, memory and work against size and threads", .command_line = command_line};
-  page.notes.push_back(
-      fmt::format("Machine: {}. Noise: {}. Times run from walls in memory to path verified; every path was verified.{}",
-                  text_of(this_machine()), noise_text(rows),
-                  result.signal ? " The study was interrupted: these are the runs so far." : ""));
+  page.notes.push_back(fmt::format(
+      "Machine: {}. Noise: {}. Times run from walls in memory to path verified; every path was verified.{}",
+      machine_text(), noise_text(rows), result.signal ? " The study was interrupted: these are the runs so far." : ""));
   if (rows.empty()) {
     page.notes.emplace_back("No run was solved.");
     return page.html();

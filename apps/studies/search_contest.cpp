@@ -14,6 +14,7 @@
 #include "core/base/rng.hpp"
 #include "core/search/search_queues.hpp"
 #include "pictures/layers/draw_bodies.hpp"
+#include "pictures/model/picture.hpp"
 #include "planners/graph/assemble_graph.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 #include "spatial/points/point_grid.hpp"
@@ -47,27 +48,14 @@ RawVector<Edge> edges_within(const std::vector<Vec2>& at, const SearchRadius& ra
   return edges;
 }
 
-/// Label of the component with the most vertices; of equal ones the least.
-VertexId largest_component(const Components& components, const Execution& execution) {
-  std::vector<std::uint32_t> sizes(components.label.size(), 0);
-  for (VertexId v = 0; v < sizes.size(); ++v) {
-    execution.poll(v);
-    ++sizes[components.label[v]];
-  }
-  VertexId largest = 0;
-  for (VertexId v = 0; v < sizes.size(); ++v) {
-    execution.poll(v);
-    if (sizes[v] > sizes[largest]) largest = v;
-  }
-  return largest;
-}
-
-VertexId nearest_in(const std::vector<Vec2>& at, const Components& components, VertexId label, Vec2 place,
+/// Of those of rank 0; where there are none, no two are joined, and it is the first.
+VertexId nearest_of(const std::vector<Vec2>& at, const std::vector<std::uint8_t>& ranks, Vec2 place,
                     const Execution& execution) {
-  VertexId nearest = label;
+  const auto first = std::ranges::find(ranks, 0);
+  VertexId nearest = first == ranks.end() ? 0 : static_cast<VertexId>(first - ranks.begin());
   for (VertexId v = 0; v < at.size(); ++v) {
     execution.poll(v);
-    if (components.label[v] == label && distance(at[v], place) < distance(at[nearest], place)) nearest = v;
+    if (ranks[v] == 0 && distance(at[v], place) < distance(at[nearest], place)) nearest = v;
   }
   return nearest;
 }
@@ -309,11 +297,10 @@ SearchGraph geometric_graph(std::uint32_t size, double degree, std::uint64_t see
   const std::array<RawVector<Edge>, 1> edges{edges_within(made.at, radius, execution)};
   const auto length = [&](VertexId v, VertexId w) { return distance(made.at[v], made.at[w]); };
   made.graph = with_lengths(assemble_graph(size, edges, execution), execution, length);
-  const Components parts = components(made.graph, execution);
-  const VertexId largest = largest_component(parts, execution);
+  const auto ranks = component_ranks(components(made.graph, execution).label, 1, execution);
   const double side = std::sqrt(static_cast<double>(size));
-  made.start = nearest_in(made.at, parts, largest, {0.0, 0.0}, execution);
-  made.goal = nearest_in(made.at, parts, largest, {side, side}, execution);
+  made.start = nearest_of(made.at, ranks, {0.0, 0.0}, execution);
+  made.goal = nearest_of(made.at, ranks, {side, side}, execution);
   return made;
 }
 

@@ -75,8 +75,7 @@ std::optional<Distribution> distribution_of(std::span<const double> values) {
   if (values.empty()) return std::nullopt;
   std::vector<double> sorted(values.begin(), values.end());
   std::sort(sorted.begin(), sorted.end());
-  Distribution d{.count = sorted.size(),
-                 .least = sorted.front(),
+  Distribution d{.least = sorted.front(),
                  .q1 = sorted_quantile(sorted, 0.25),
                  .median = sorted_quantile(sorted, 0.5),
                  .q3 = sorted_quantile(sorted, 0.75),

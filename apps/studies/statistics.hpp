@@ -22,7 +22,6 @@ struct Interval {
 
 /// A sample in short.
 struct Distribution {
-  std::size_t count = 0;
   double least = 0.0;
   double q1 = 0.0;
   double median = 0.0;

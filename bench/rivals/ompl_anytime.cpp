@@ -129,7 +129,7 @@ struct PoseTask {
   std::vector<Se2> goals;  // of a goal of any heading 16, as warren has it
 
   explicit PoseTask(const Scene& scene)
-      : problem(pose_problem(scene, {}, "a body with a heading")),
+      : problem(pose_problem(scene, {})),
         world(Kind::world(scene, problem.robot)),
         start(problem.start),
         goals(poses_of(problem.goal)) {

@@ -32,7 +32,7 @@ class FileToRead : NotCopied {
   }
 
   void write(const Execution& execution) const {
-    const RoadmapSection section = roadmap_section<std::uint64_t>("numbers", numbers_);
+    const RoadmapSection section = roadmap_section("numbers", numbers_);
     OutputFile file(path_, execution);
     write_roadmap_file(file, {1, 2, "bench"}, {&section, 1}, execution);
     file.commit();

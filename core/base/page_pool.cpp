@@ -52,10 +52,8 @@ class IdlePages : NotCopied {
   /// Where they lie; nullptr if no piece is so large.
   /// The end of the smallest piece that will do: no call of the system, which would stop all threads for new addresses.
   char* take(std::size_t bytes) {
-    const auto fits_worse = [bytes](const Piece& a, const Piece& b) {
-      return (a.bytes < bytes ? ~std::size_t{0} : a.bytes) < (b.bytes < bytes ? ~std::size_t{0} : b.bytes);
-    };
-    const auto piece = std::min_element(pieces_.begin(), pieces_.end(), fits_worse);
+    const auto if_it_fits = [bytes](const Piece& piece) { return piece.bytes < bytes ? ~std::size_t{0} : piece.bytes; };
+    const auto piece = std::ranges::min_element(pieces_, {}, if_it_fits);
     if (piece == pieces_.end() || piece->bytes < bytes) return nullptr;
     char* const block = piece->at + (piece->bytes - bytes);
     made_of_[block].assign(1, bytes);
@@ -82,10 +80,7 @@ class IdlePages : NotCopied {
   /// Throws std::bad_alloc before it has changed anything that matters.
   void keep(char* block, std::size_t bytes) {
     std::vector<std::size_t> sizes;
-    if (const auto known = made_of_.find(block); known != made_of_.end()) {
-      sizes = std::move(known->second);
-      made_of_.erase(known);
-    }
+    if (auto known = made_of_.extract(block)) sizes = std::move(known.mapped());
     std::size_t sum = 0;
     for (const std::size_t size : sizes) sum += size;
     if (sum != bytes) sizes.assign(1, bytes);  // another thread's block, mapped at once

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <numbers>
+#include <utility>
 
 #include "core/base/trigonometry.hpp"
 #include "core/plane/geometry.hpp"
@@ -12,24 +13,16 @@
 namespace warren {
 namespace {
 
-/// The lowest corner, the leftmost of these.
-std::size_t lowest(std::span<const Vec2> p) {
-  std::size_t low = 0;
-  for (std::size_t i = 1; i < p.size(); ++i) {
-    if (p[i].y < p[low].y || (p[i].y == p[low].y && p[i].x < p[low].x)) low = i;
-  }
-  return low;
-}
+using Ring = std::vector<Vec2>;  // counter-clockwise
 
-/// The directions of the sides from the lowest corner on: their angles ascend from 0 to below a full turn.
-std::vector<Vec2> sides_from_lowest(std::span<const Vec2> p) {
-  std::vector<Vec2> sides;
-  if (p.size() < 2) return sides;
-  const std::size_t low = lowest(p);
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    sides.push_back(p[(low + i + 1) % p.size()] - p[(low + i) % p.size()]);
-  }
-  return sides;
+/// The corners from the lowest one on, the leftmost of these, and, of two or more, this one again behind the last: the
+/// angles of the sides ascend from 0 to below a full turn.
+Ring closed_from_lowest(std::span<const Vec2> p) {
+  Ring ring(p.begin(), p.end());
+  const auto lowest = std::ranges::min_element(ring, {}, [](Vec2 v) { return std::pair(v.y, v.x); });
+  std::rotate(ring.begin(), lowest, ring.end());
+  if (ring.size() > 1) ring.push_back(ring.front());
+  return ring;
 }
 
 /// Is the angle of a, in [0, 2 pi), smaller than b's?
@@ -38,8 +31,6 @@ bool before(Vec2 a, Vec2 b) {
   if (upper(a) != upper(b)) return upper(a);
   return orient2d({}, a, b) > 0;
 }
-
-using Ring = std::vector<Vec2>;  // counter-clockwise
 
 Vec2 at(const Ring& ring, std::size_t i) { return ring[i % ring.size()]; }
 
@@ -105,23 +96,23 @@ void join_pieces(std::vector<Ring>& rings) {
 }  // namespace
 
 std::vector<Vec2> minkowski_sum(std::span<const Vec2> a, std::span<const Vec2> b) {
-  const std::vector<Vec2> of_a = sides_from_lowest(a);
-  const std::vector<Vec2> of_b = sides_from_lowest(b);
-  const std::size_t low_a = lowest(a);
-  const std::size_t low_b = lowest(b);
+  const Ring of_a = closed_from_lowest(a);
+  const Ring of_b = closed_from_lowest(b);
+  const auto side = [](const Ring& ring, std::size_t corner) { return ring[corner + 1] - ring[corner]; };
   // Each corner is a corner of a and one of b: no sums of sums, so rounding doesn't add up.
   std::vector<Vec2> sum;
   std::size_t i = 0;
   std::size_t j = 0;
-  const auto corner = [&] { return a[(low_a + i) % a.size()] + b[(low_b + j) % b.size()]; };
   do {
-    const Vec2 p = corner();
+    const Vec2 p = of_a[i] + of_b[j];
     if (sum.empty() || !(sum.back() == p)) sum.push_back(p);
-    const bool a_first = j == of_b.size() || (i < of_a.size() && !before(of_b[j], of_a[i]));
-    const bool b_first = i == of_a.size() || (j < of_b.size() && !before(of_a[i], of_b[j]));
-    if (a_first && i < of_a.size()) ++i;
-    if (b_first && j < of_b.size()) ++j;
-  } while (i < of_a.size() || j < of_b.size());
+    const bool a_ends = i + 1 == of_a.size();
+    const bool b_ends = j + 1 == of_b.size();
+    const bool a_first = b_ends || (!a_ends && !before(side(of_b, j), side(of_a, i)));
+    const bool b_first = a_ends || (!b_ends && !before(side(of_a, i), side(of_b, j)));
+    if (a_first && !a_ends) ++i;
+    if (b_first && !b_ends) ++j;
+  } while (i + 1 < of_a.size() || j + 1 < of_b.size());
   while (sum.size() > 1 && sum.front() == sum.back()) sum.pop_back();
   return sum;
 }

@@ -35,15 +35,12 @@ inline double wrapped_angle(double theta) { return std::remainder(theta, 2.0 * s
 class Rotation {
  public:
   /// By theta radians, counter-clockwise.
-  explicit Rotation(double theta) : Rotation(portable::sin_and_cos(theta)) {}
+  explicit Rotation(double theta) : of_(portable::sin_and_cos(theta)) {}
   /// The point turned about the origin.
-  Vec2 operator()(Vec2 p) const { return {cosine_ * p.x - sine_ * p.y, sine_ * p.x + cosine_ * p.y}; }
+  Vec2 operator()(Vec2 p) const { return {of_.cosine * p.x - of_.sine * p.y, of_.sine * p.x + of_.cosine * p.y}; }
 
  private:
-  explicit Rotation(const portable::SineAndCosine& of) : cosine_(of.cosine), sine_(of.sine) {}
-
-  double cosine_;
-  double sine_;
+  portable::SineAndCosine of_;
 };
 
 /// The point of the body that is p where the body stands at the origin.

@@ -57,6 +57,11 @@ class Graph {
   std::size_t degree(VertexId v) const { return offsets_[v + 1] - offsets_[v]; }
   /// The edge ends of all rows, one row after the other: those of v are first_end(v) .. first_end(v) + degree(v) - 1.
   std::size_t first_end(VertexId v) const { return offsets_[v]; }
+  /// The edge end of v that leads to w, one of its neighbours.
+  std::size_t end_to(VertexId v, VertexId w) const {
+    const auto row = neighbours(v);
+    return first_end(v) + static_cast<std::size_t>(std::lower_bound(row.begin(), row.end(), w) - row.begin());
+  }
   std::span<const EdgeEnd> offsets() const { return offsets_; }
   std::span<const VertexId> targets() const { return targets_; }
   bool has_lengths() const { return !lengths_.empty(); }

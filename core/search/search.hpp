@@ -10,11 +10,10 @@
 //
 // A graph is any callable neighbours(v, visit) that calls visit(w, length) for each neighbour in ascending order; a
 // lazily checked roadmap tests an edge there, and asks visit.wants(w, length) first, whether an edge of at least this
-// length could help: it never does unless visit.through() + length < visit.labels()[w].
+// length could help.
 // Heuristics must be consistent (by others the path may be longer) and lengths non-negative, so that each vertex is
-// settled once. Ties break by vertex
-// number, therefore the path and the counts don't depend on the queue. Time O((V + E) log V); memory 12 bytes a vertex
-// and the queue.
+// settled once. Ties break by vertex number, therefore the path and the counts don't depend on the queue. Time O((V +
+// E) log V); memory 12 bytes a vertex and the queue.
 #pragma once
 
 #include <algorithm>
@@ -24,6 +23,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/function_ref.hpp"
 #include "core/base/raw_vector.hpp"
 #include "core/search/graph.hpp"
 
@@ -130,76 +130,55 @@ struct NeverStop {
   bool operator()() const { return false; }
 };
 
-namespace detail {
-template <class Queue, class Heuristic>
-struct BestFirstVisit {
-  SearchState& state;
-  Queue& queue;
-  const Heuristic& heuristic;
-  SearchResult& result;
-  VertexId from;
-  double g;
-  bool wants(VertexId w, double length) const { return state.improves(w, g + length); }
-  double through() const { return g; }
-  std::span<const double> labels() const { return state.labels(); }
-  const std::uint8_t* settled_elsewhere() const { return nullptr; }
-  void operator()(VertexId w, double length) const {
-    if (!wants(w, length)) return;
-    ++(state.reached(w) ? result.decreases : result.pushes);
-    state.reach(w, g + length, from);
-    queue.push(w, g + length + heuristic(w));
-  }
-};
-}  // namespace detail
-
 /// A search's visit, whatever its queue and its heuristic, for graphs whose expansion is dear: they are compiled once,
 /// not once a search. What is asked for each edge is answered here; an edge that helps costs a call.
 class AnyVisit {
  public:
   template <class Visit>
-  explicit AnyVisit(const Visit& visit)
+  AnyVisit(const Visit& visit)  // NOLINT(google-explicit-constructor): searches call with their own
       : labels_(visit.labels()),
         settled_elsewhere_(visit.settled_elsewhere()),
         through_(visit.through()),
-        visit_(&visit),
-        take_([](const void* visit, VertexId w, double length) { (*static_cast<const Visit*>(visit))(w, length); }) {}
+        take_(visit) {}
   bool wants(VertexId w, double length) const {
     return through_ + length < labels_[w] && (settled_elsewhere_ == nullptr || settled_elsewhere_[w] == 0);
   }
-  double through() const { return through_; }
   std::span<const double> labels() const { return labels_; }
-  void operator()(VertexId w, double length) const { take_(visit_, w, length); }
+  void operator()(VertexId w, double length) const { take_(w, length); }
 
  private:
   std::span<const double> labels_;
   const std::uint8_t* settled_elsewhere_;  // by the other side of a search from both ends, a byte a vertex; or nullptr
   double through_;
-  const void* visit_;
-  void (*take_)(const void*, VertexId, double);
+  FunctionRef<void(VertexId, double)> take_;
 };
 
-/// The graph of such a search: graph(v, AnyVisit). Refers to the graph.
-class AnyNeighbours {
- public:
-  template <class AGraph>
-  explicit AnyNeighbours(AGraph& graph)
-      : graph_(&graph),
-        expand_([](void* graph, VertexId v, const AnyVisit& visit) { (*static_cast<AGraph*>(graph))(v, visit); }) {}
-  template <class Visit>
-  void operator()(VertexId v, const Visit& visit) const {
-    expand_(graph_, v, AnyVisit(visit));
-  }
-
- private:
-  void* graph_;
-  void (*expand_)(void*, VertexId, const AnyVisit&);
-};
+/// The graph of such a search: graph(v, AnyVisit).
+using AnyNeighbours = FunctionRef<void(VertexId, const AnyVisit&)>;
 
 /// A* from start to goal. state and queue must be cleared and sized for all vertices; should_stop() is asked every
 /// expansions_per_poll of them, and of stale entries. The heuristic is called once a vertex push.
 template <class Queue, class Neighbours, class Heuristic, class ShouldStop>
 SearchResult best_first(VertexId start, VertexId goal, const Neighbours& neighbours, const Heuristic& heuristic,
                         Queue& queue, SearchState& state, const ShouldStop& should_stop) {
+  struct Visit {
+    SearchState& state;
+    Queue& queue;
+    const Heuristic& heuristic;
+    SearchResult& result;
+    VertexId from;
+    double g;
+    bool wants(VertexId w, double length) const { return state.improves(w, g + length); }
+    double through() const { return g; }
+    std::span<const double> labels() const { return state.labels(); }
+    const std::uint8_t* settled_elsewhere() const { return nullptr; }
+    void operator()(VertexId w, double length) const {
+      if (!wants(w, length)) return;
+      ++(state.reached(w) ? result.decreases : result.pushes);
+      state.reach(w, g + length, from);
+      queue.push(w, g + length + heuristic(w));
+    }
+  };
   SearchResult result;
   std::uint64_t stale = 0;
   state.reach(start, 0.0, no_vertex);
@@ -224,7 +203,7 @@ SearchResult best_first(VertexId start, VertexId goal, const Neighbours& neighbo
       result.status = SearchStatus::stopped;
       return result;
     }
-    neighbours(v, detail::BestFirstVisit<Queue, Heuristic>{state, queue, heuristic, result, v, state.g(v)});
+    neighbours(v, Visit{state, queue, heuristic, result, v, state.g(v)});
   }
   return result;
 }

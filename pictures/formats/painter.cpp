@@ -128,7 +128,7 @@ class Painter {
     if (parts_.has(Part::world)) polygons();
     const auto is_lines = [](Part part) { return part == Part::roadmap || part == Part::search; };
     layers([&](const PictureLayer& some) { return is_lines(some.part) && !some.over_roadmap; });
-    if (picture_.roadmap != nullptr) roadmap();
+    if (picture_.roadmap) roadmap();
     layers([&](const PictureLayer& some) { return is_lines(some.part) && some.over_roadmap; });
     if (parts_.has(Part::world)) walls();
     layers([](const PictureLayer& some) { return some.part == Part::body; });
@@ -138,14 +138,9 @@ class Painter {
       mark("start", picture_.start, MarkShape::disc, colors::start);
       mark("goal", picture_.goal, MarkShape::star, colors::goal);
     }
-    if (picture_.moves && !picture_.path.empty() && parts_.has(Part::path)) {
-      surface_.moving_body(*picture_.body, width(widths::search_tree));
-    }
-    if (picture_.moves && picture_.arm != nullptr && parts_.has(Part::body)) {
-      surface_.moving_arm(*picture_.arm, width(widths::search_tree));
-    }
+    if (picture_.moves) surface_.moving(picture_, parts_, width(widths::search_tree));
     surface_.leave_world();
-    if (picture_.solids != nullptr) solids(*picture_.solids);
+    if (picture_.solids) solids(*picture_.solids);
     frame();
     return notes();
   }

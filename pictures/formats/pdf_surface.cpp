@@ -97,17 +97,9 @@ class PdfSurface : public Surface {
     pen_ = pen;
     use_pen();
   }
-  void segment(Vec2 a, Vec2 b) override {
-    move_to(at(a));
-    line_to(at(b));
-    piece_ended();
-  }
+  void segment(Vec2 a, Vec2 b) override { add_to_path(std::array{a, b}, false); }
   void chain(std::span<const Vec2> points, std::span<const double> turns, bool closed) override {
-    const std::vector<Vec2> all = without_arcs(points, turns);
-    move_to(at(all[0]));
-    for (std::size_t i = 1; i < all.size(); ++i) line_to(at(all[i]));
-    if (closed) HPDF_Page_ClosePath(sheet_);
-    piece_ended();
+    add_to_path(without_arcs(points, turns), closed);
   }
   void text(const PlacedText& text) override {
     paint_path();
@@ -164,13 +156,17 @@ class PdfSurface : public Surface {
     const Vec2 on_page = in_world_ ? page_.view.at(p) : p;
     return {points_a_pixel * on_page.x, points_a_pixel * (page_.height - on_page.y)};
   }
-  void move_to(Vec2 p) {
-    HPDF_Page_MoveTo(sheet_, real(p.x), real(p.y));
-    ++path_steps_;
-  }
-  void line_to(Vec2 p) {
-    HPDF_Page_LineTo(sheet_, real(p.x), real(p.y));
-    ++path_steps_;
+  void add_to_path(std::span<const Vec2> points, bool closed) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Vec2 p = at(points[i]);
+      (i == 0 ? HPDF_Page_MoveTo : HPDF_Page_LineTo)(sheet_, real(p.x), real(p.y));
+    }
+    path_steps_ += points.size();
+    if (closed) HPDF_Page_ClosePath(sheet_);
+    constexpr std::size_t most_steps = 10'000;
+    if (path_steps_ < most_steps) return;
+    execution_.check();
+    paint_path();
   }
   void use_pen() {
     const auto part = [](std::uint8_t value) { return real(value / 255.0); };
@@ -197,12 +193,6 @@ class PdfSurface : public Surface {
     path_steps_ = 0;
     const bool has_lines = pen_.stroke || pen_.crisp;
     (!pen_.fill ? HPDF_Page_Stroke : has_lines ? HPDF_Page_FillStroke : HPDF_Page_Fill)(sheet_);
-  }
-  void piece_ended() {
-    constexpr std::size_t most_steps = 10'000;
-    if (path_steps_ < most_steps) return;
-    execution_.check();
-    paint_path();
   }
   void check() const {
     const bool failed = HPDF_GetError(document_.get()) != HPDF_OK;  // all that is asked of it is right

@@ -59,6 +59,10 @@ void blend(std::uint8_t* pixel, double alpha, Rgb color) {
   for (int c = 0; c < 3; ++c) pixel[c] = static_cast<std::uint8_t>((pixel[c] * (256 - weight) + ink[c] * weight) >> 8);
 }
 
+void darken(std::uint8_t& pixel, double share) {
+  pixel = static_cast<std::uint8_t>(pixel + std::lround((255 - pixel) * share));
+}
+
 /// Crossings of outlines with the sub-rows of pixel rows: four a row.
 constexpr int sub_rows = 4;
 
@@ -330,19 +334,14 @@ Mask::Mask(std::size_t width, std::size_t height, const Execution& execution) : 
   }
 }
 
-void Mask::cover(std::size_t x, std::size_t y, double share) {
-  std::uint8_t& pixel = pixels_[width_ * y + x];
-  pixel = static_cast<std::uint8_t>(pixel + std::lround((255 - pixel) * share));
-}
-
 void Mask::draw_line(Vec2 a, Vec2 b, double width, double opacity) {
   cover_line(a, b, width, width_, height_,
-             [&](std::size_t x, std::size_t y, double share) { cover(x, y, opacity * share); });
+             [&](std::size_t x, std::size_t y, double share) { darken(pixels_[width_ * y + x], opacity * share); });
 }
 
 void Mask::fill(const PolygonSet& outlines, double opacity, const Execution& execution) {
   cover_inside(outlines, width_, height_, execution,
-               [&](std::size_t x, std::size_t y, double share) { cover(x, y, opacity * share); });
+               [&](std::size_t x, std::size_t y, double share) { darken(pixels_[width_ * y + x], opacity * share); });
 }
 
 void write_png_file(const Image& image, double dpi, const Execution& execution, const Write& write) {

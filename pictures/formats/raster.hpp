@@ -65,8 +65,6 @@ class Mask {
   void fill(const PolygonSet& outlines, double opacity, const Execution& execution);
 
  private:
-  void cover(std::size_t x, std::size_t y, double share);
-
   std::size_t width_;
   std::size_t height_;
   RawVector<std::uint8_t> pixels_;

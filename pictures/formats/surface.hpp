@@ -56,10 +56,8 @@ class Surface : NotCopied {
   virtual double image_density() const = 0;
   /// Over that part of the page, in a group outside of the world; it may be of any size.
   virtual void image(const Image& image, const Box& at) = 0;
-  /// The moving body, after the path; only where the format moves.
-  virtual void moving_body(const MovingBody&, double /*line_width*/) {}
-  /// The same of an arm.
-  virtual void moving_arm(const MovingArm&, double /*line_width*/) {}
+  /// What moves in a picture, after the path, as far as its part is shown; only where the format moves.
+  virtual void moving(const Picture&, Parts, double /*line_width*/) {}
 
  protected:
   bool in_world_ = false;  ///< between enter_world() and leave_world()
@@ -95,9 +93,8 @@ struct Timetable {
 };
 Timetable timetable_of(const MovingBody& body);
 
-/// The group "body". path_id: of the line that it follows; scale: picture units a world unit. Empty where the body
-/// stands still.
-std::string svg_moving_body(const MovingBody& body, std::string_view path_id, double scale, double line_width);
+/// The group "body"; it follows the line "way". scale: picture units a world unit. Empty where the body stands still.
+std::string svg_moving_body(const MovingBody& body, double scale, double line_width);
 
 /// The group "arm": in each of its projections a line of that width. `at`: from the picture's world to where it is
 /// written. Empty where it stands still.

@@ -51,21 +51,19 @@ class SvgSurface : public Surface {
       : page_(page), execution_(execution), write_(write), frame_(page.canvas.box) {}
 
   void open(const Picture& picture, std::string_view title) {
-    std::string width = fmt::format("{:.0f}", std::ceil(page_.width));
-    std::string height = fmt::format("{:.0f}", std::ceil(page_.height));
-    if (page_.asked) {
-      const std::string_view unit = page_.asked->unit == LengthUnit::mm ? "mm" : "";
-      width = fmt::format("{:.6g}{}", unit.empty() ? page_.width : page_.asked->width, unit);
-      height = fmt::format("{:.6g}{}", unit.empty() ? page_.height : page_.asked->height, unit);
-    }
+    const auto side = [&](double on_page, double PageSize::*asked) {
+      if (!page_.asked) return fmt::format("{:.0f}", std::ceil(on_page));
+      const bool in_mm = page_.asked->unit == LengthUnit::mm;
+      return in_mm ? fmt::format("{:.6g}mm", (*page_.asked).*asked) : fmt::format("{:.6g}", on_page);
+    };
     text_ += fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" "
         "viewBox=\"0 0 {:.2f} {:.2f}\" width=\"{}\" height=\"{}\" role=\"img\" "
         "xmlns:xlink=\"http://www.w3.org/1999/xlink\" "
         "font-family=\"Helvetica,Arial,Liberation Sans,DejaVu Sans,sans-serif\">\n"
         "<title>{}</title>\n<desc>{}</desc>\n<rect id=\"paper\" width=\"100%\" height=\"100%\" fill=\"{}\"/>\n",
-        page_.width, page_.height, width, height, xml_text(title), xml_text(picture.description),
-        css_color(colors::paper));
+        page_.width, page_.height, side(page_.width, &PageSize::width), side(page_.height, &PageSize::height),
+        xml_text(title), xml_text(picture.description), css_color(colors::paper));
   }
 
   void close() {
@@ -168,12 +166,12 @@ class SvgSurface : public Surface {
     constexpr double points_an_inch = 96.0;
     png([&](const Write& write) { write_png_file(image, density_of_images * points_an_inch, execution_, write); });
   }
-  void moving_body(const MovingBody& body, double line_width) override {
-    text_ += svg_moving_body(body, "way", frame_.scale, length(line_width));
-  }
-  void moving_arm(const MovingArm& arm, double line_width) override {
-    const double width = std::max(2.0 * frame_.scale * arm.radius, length(line_width));
-    text_ += svg_moving_arm(arm, width, [&](Vec2 p) { return at(p); });
+  void moving(const Picture& picture, Parts parts, double line_width) override {
+    const double width = length(line_width);
+    if (!picture.path.empty() && parts.has(Part::path)) text_ += svg_moving_body(picture.body, frame_.scale, width);
+    if (!picture.arm || !parts.has(Part::body)) return;
+    const double arm_width = std::max(2.0 * frame_.scale * picture.arm->radius, width);
+    text_ += svg_moving_arm(*picture.arm, arm_width, [&](Vec2 p) { return at(p); });
   }
 
  private:
@@ -312,13 +310,13 @@ Timetable timetable_of(const MovingBody& body) {
   return table;
 }
 
-std::string svg_moving_body(const MovingBody& body, std::string_view path_id, double scale, double line_width) {
+std::string svg_moving_body(const MovingBody& body, double scale, double line_width) {
   const Timetable table = timetable_of(body);
   if (!(table.moments.back() > 0.0)) return {};
   const std::string moments = fmt::format("{:.6f}", fmt::join(table.moments, ";"));
   const std::string motion = fmt::format(
-      R"(<animateMotion {} calcMode="linear" keyTimes="{}" keyPoints="{:.6f}"><mpath href="#{}"/></animateMotion>)",
-      duration, moments, fmt::join(table.shares, ";"), path_id);
+      R"(<animateMotion {} calcMode="linear" keyTimes="{}" keyPoints="{:.6f}"><mpath href="#way"/></animateMotion>)",
+      duration, moments, fmt::join(table.shares, ";"));
   std::vector<double> angles;  // degrees, without jumps
   double theta = body.poses.front().theta;
   for (std::size_t i = 0; i < body.poses.size(); ++i) {

@@ -304,27 +304,28 @@ class ArmDrawing {
     lay_out();
   }
 
-  ArmViews draw(const ArmPath& path) const {
-    ArmViews views;
-    views.stage.source = scene_.source;
-    for (const Projection& view : views_) add_obstacles(view, views.stage);
+  Picture draw(const ArmPath& path) const {
+    auto stage = std::make_unique<Scene>();
+    stage->source = scene_.source;
+    for (const Projection& view : views_) add_obstacles(view, *stage);
+    Picture views{.scene = *stage, .stage = std::move(stage)};
     const PictureLayer start = arm_at("start", path, path.states().front(), colors::start);
     views.layers = {start};
     if (path.states().size() > 1) {
       views.layers = {sweep(path), start, arm_at("goal", path, path.states().back(), colors::goal), trace(path)};
     }
     views.solids = solids_of(obstacles_, perspective_, low_, high_, execution_);
-    add_arm(views.solids, path, radius_, execution_);
-    views.panels = panels(views.solids.square);
+    add_arm(*views.solids, path, radius_, execution_);
+    views.panels = panels(views.solids->square);
     constexpr double moments = 120.0;
-    views.arm = {.radius = radius_, .views = {views_.begin(), views_.end()}};
+    MovingArm& arm = views.arm.emplace(
+        MovingArm{.radius = radius_, .views = {views_.begin(), views_.end()}, .links = path.solids()});
     for (const ArmPath::Place& at : path.places(moments, execution_)) {
-      views.arm.moments.push_back(at.moment);
-      views.arm.spines.push_back(path.spine(at.q));
-      views.arm.tools.push_back(path.tool(at.q));
-      views.arm.frames.push_back(path.frames(at.q));
+      arm.moments.push_back(at.moment);
+      arm.spines.push_back(path.spine(at.q));
+      arm.tools.push_back(path.tool(at.q));
+      arm.frames.push_back(path.frames(at.q));
     }
-    views.arm.links = path.solids();
     return views;
   }
 
@@ -537,15 +538,15 @@ void add_places(SolidView& view, std::span<const Vec3> tools, std::span<const To
 
 }  // namespace
 
-ArmViews arm_roadmap_views(const Scene& scene, const ArmModel& model, const JointState& start,
-                           std::span<const JointState> states, std::span<const ToolLines> lines,
-                           const Execution& execution) {
+Picture arm_roadmap_views(const Scene& scene, const ArmModel& model, const JointState& start,
+                          std::span<const JointState> states, std::span<const ToolLines> lines,
+                          const Execution& execution) {
   std::vector<JointState> seen{start};
   seen.insert(seen.end(), states.begin(), states.end());
   const ArmPath all(model, seen);
   const ArmPath stands(model, std::span(seen).first(1));
   const ArmDrawing drawing(scene, all, execution);
-  ArmViews views = drawing.draw(stands);
+  Picture views = drawing.draw(stands);
   std::vector<Vec3> tools;
   for (std::size_t i = 0; i < states.size(); ++i) {
     execution.poll(i);
@@ -553,12 +554,12 @@ ArmViews arm_roadmap_views(const Scene& scene, const ArmModel& model, const Join
   }
   const std::vector<PictureLayer> places = drawing.places(tools, lines);
   views.layers.insert(views.layers.begin(), places.begin(), places.end());
-  add_places(views.solids, tools, lines, execution);
+  add_places(*views.solids, tools, lines, execution);
   return views;
 }
 
-ArmViews arm_views(const Scene& scene, const ArmModel& model, std::span<const JointState> path,
-                   const Execution& execution) {
+Picture arm_views(const Scene& scene, const ArmModel& model, std::span<const JointState> path,
+                  const Execution& execution) {
   const ArmPath along(model, path);
   return ArmDrawing(scene, along, execution).draw(along);
 }

@@ -14,14 +14,6 @@
 
 namespace warren {
 
-struct ArmViews {
-  Scene stage;  ///< shown instead of the world
-  std::vector<PictureLayer> layers;
-  std::vector<AxesPanel> panels;
-  SolidView solids;
-  MovingArm arm;  ///< of a path of one state: that
-};
-
 /// Edges between places of the tool, in one colour.
 struct ToolLines {
   std::string id;     ///< the layer's
@@ -31,13 +23,14 @@ struct ToolLines {
   std::vector<Edge> edges;
 };
 
-/// A path of one state shows the arm as it stands; none is empty. Throws Stopped.
-ArmViews arm_views(const Scene& scene, const ArmModel& model, std::span<const JointState> path,
-                   const Execution& execution);
+/// A picture with a stage, without words. A path of one state shows the arm as it stands; none is empty. Throws
+/// Stopped.
+Picture arm_views(const Scene& scene, const ArmModel& model, std::span<const JointState> path,
+                  const Execution& execution);
 
-/// The arm as it stands at `start`, the tool's places at `states` and lines between these.
-ArmViews arm_roadmap_views(const Scene& scene, const ArmModel& model, const JointState& start,
-                           std::span<const JointState> states, std::span<const ToolLines> lines,
-                           const Execution& execution);
+/// The same of the arm as it stands at `start`, the tool's places at `states` and lines between these.
+Picture arm_roadmap_views(const Scene& scene, const ArmModel& model, const JointState& start,
+                          std::span<const JointState> states, std::span<const ToolLines> lines,
+                          const Execution& execution);
 
 }  // namespace warren

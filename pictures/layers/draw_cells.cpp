@@ -132,7 +132,7 @@ std::vector<PictureLayer> layers_of_places(const Prices& prices, const Execution
   PictureLayer& layer = layers.emplace_back(layer_of_areas("keep_out", "keep out", forbidden_opacity));
   layer.color = colors::wrong;
   layer.fill = colors::wrong;
-  for (const KeepOut& area : prices.keep_out) layer.lines.add(area.corners);
+  for (const ScenePolygon& area : prices.keep_out) layer.lines.add(area.corners);
   return layers;
 }
 

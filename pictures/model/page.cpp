@@ -148,7 +148,7 @@ std::vector<LegendEntry> legend_of(const Picture& picture, Parts parts, const Ex
   };
   if (parts.has(Part::world)) add_world_entries(entries, picture);
   add_layers(true);
-  if (picture.roadmap != nullptr) add_roadmap_entries(entries, *picture.roadmap, parts, execution);
+  if (picture.roadmap) add_roadmap_entries(entries, *picture.roadmap, parts, execution);
   add_layers(false);
   if (!parts.has(Part::path)) return entries;
   if (!picture.path.empty()) {

@@ -6,11 +6,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "core/base/solution.hpp"
 #include "core/base/types.hpp"
 #include "core/plane/polygon.hpp"
 #include "core/plane/se2.hpp"
@@ -156,24 +158,32 @@ struct AxesPanel {
   bool has_ticks = true;  ///< else a frame and the labels alone
 };
 
-/// Refers to what it shows; all of it must outlive the picture.
+/// A further picture of an answer: the same world with other layers, without roadmap and path.
+struct PicturePage {
+  std::string id;                    ///< ends the name of its file
+  std::vector<PictureLayer> layers;  ///< in the order in which they are drawn
+};
+
+/// Owns all but the scene, which must outlive it.
 struct Picture {
-  const Scene& scene;
-  const PlannedRoadmap<Vec2>* roadmap = nullptr;  ///< nullptr: none
-  std::span<const PictureLayer> layers = {};      ///< in the order in which they are drawn, over the obstacles
-  std::span<const Vec2> path = {};
-  std::span<const double> path_turns = {};  ///< as PictureLayer::turns
-  std::optional<Vec2> start = {};
-  std::optional<Vec2> goal = {};
-  std::span<const AxesPanel> panels = {};  ///< empty: one, around all
-  const SolidView* solids = nullptr;       ///< seen in perspective in a box of its own; nullptr: none
-  std::string path_label = "path";
-  std::string title = {};
-  std::string subtitle = {};  ///< a line or two below the title: planner, samples, length, seed
+  const Scene& scene;                                ///< of a map, the walls shown are those of add_map_walls()
+  std::unique_ptr<const Scene> stage = {};           ///< the scene itself, where it is views of a world not plane
+  std::optional<PlannedRoadmap<Vec2>> roadmap = {};  ///< of bodies whose states stand in the plane
+  std::vector<PictureLayer> layers = {};             ///< in the order in which they are drawn, over the obstacles
+  Path<Vec2> path = {};                              ///< of the reference point
+  std::vector<double> path_turns = {};               ///< as PictureLayer::turns
+  std::optional<Vec2> start = {};                    ///< none: not shown
+  std::optional<Vec2> goal = {};                     ///< none: not shown
+  std::vector<AxesPanel> panels = {};                ///< empty: one, around all
+  std::optional<SolidView> solids = {};              ///< seen in perspective in a box of its own
+  std::string path_label = "path";                   ///< as the legend calls it
+  std::string title = {};                            ///< the world
+  std::string subtitle = {};                         ///< a line or two below the title: planner, samples, length, seed
   std::string description = {};
-  const MovingBody* body = nullptr;  ///< what goes along the path; nullptr: a point. Without poses: the path's points
-  const MovingArm* arm = nullptr;    ///< that goes along a path; nullptr: none
-  bool moves = false;                ///< SVG: it is seen moving; HTML has a slider always
+  MovingBody body = {};                 ///< what goes along the path. Without poses: the path's points
+  std::optional<MovingArm> arm = {};    ///< that goes along a path
+  bool moves = false;                   ///< SVG: it is seen moving; HTML has a slider always
+  std::vector<PicturePage> pages = {};  ///< what deserves a picture of its own each
 };
 
 /// The part of the world that is shown, and what counts as one unit there: a maze's cell, else a fortieth of the

@@ -60,12 +60,7 @@ std::string source_of(std::string_view script) {
   for (std::size_t i = 0; i + 1 < hex.size(); i += 2) {
     bytes += static_cast<char>(16 * digit(hex[i]) + digit(hex[i + 1]));
   }
-  std::string text = "'sha256-";
-  const Write append = [&](std::string_view piece) { text += piece; };
-  Base64 base64(append);
-  base64.write(bytes);
-  base64.end();
-  return text + "'";
+  return "'sha256-" + encoded(bytes) + "'";
 }
 
 // Numbers as pages hold them: {"type": "f32", "data": base64}, little-endian, written in pieces.
@@ -116,7 +111,7 @@ class NumberArray {
 
 /// Does the page's script draw an arm in perspective, where it is on its way? Else its perspective is an image.
 bool moves_arm(const Picture& picture, Parts parts) {
-  return picture.solids != nullptr && picture.arm != nullptr && !picture.arm->spines.empty() && parts.has(Part::body);
+  return picture.solids && picture.arm && !picture.arm->spines.empty() && parts.has(Part::body);
 }
 
 constexpr std::size_t most_drawn_walls = 4'000'000;
@@ -147,7 +142,7 @@ class PageWriter {
     write_("<script id=\"picture\" type=\"application/json\">");
     words(title);
     layers();
-    if (picture_.roadmap != nullptr && picture_.panels.empty()) graph(*picture_.roadmap);
+    if (picture_.roadmap && picture_.panels.empty()) graph(*picture_.roadmap);
     if (parts_.has(Part::path)) path();
     if (moves_arm(picture_, parts_)) arm();
     write_("}</script>\n");
@@ -216,7 +211,7 @@ class PageWriter {
     if (picture_.path.empty()) return;
     numbers<double>("path", without_arcs(picture_.path, picture_.path_turns), [this](Vec2 p) { return moved(p); });
     const MovingBody point;
-    const MovingBody& body = picture_.body != nullptr && parts_.has(Part::body) ? *picture_.body : point;
+    const MovingBody& body = parts_.has(Part::body) ? picture_.body : point;
     Json outline = Json::array();
     for (const Vec2 p : body.outline) outline.push_back({p.x, p.y});
     write_(",\"body\":" + Json{{"outline", outline}, {"radius", body.radius}, {"heads", body.heads}}.dump());
@@ -261,7 +256,7 @@ class PageWriter {
     if (parts_.has(Part::world) && !picture_.scene.polygons.empty()) polygons();
     add_layers(false);
     if (parts_.has(Part::world)) walls();
-    if (picture_.solids != nullptr && !moves_arm(picture_, parts_)) perspective(*picture_.solids);
+    if (picture_.solids && !moves_arm(picture_, parts_)) perspective(*picture_.solids);
     write_("]");
   }
   void polygons() {
@@ -497,10 +492,8 @@ class PageWriter {
     if (picture_.scene.bounds && !(all_fit(picture_.scene.bounds->min) && all_fit(picture_.scene.bounds->max)))
       return false;
     return picture_.scene.walls.visit([&](auto all) {
-      for (const auto& wall : all) {
-        if (!all_fit(wall.segment().a) || !all_fit(wall.segment().b)) return false;
-      }
-      return true;
+      return std::ranges::all_of(
+          all, [&](const auto& wall) { return all_fit(wall.segment().a) && all_fit(wall.segment().b); });
     });
   }
   Vec2 moved(Vec2 p) const { return p - origin_; }

@@ -90,9 +90,6 @@ struct AnytimeSolution : Solution<State> {
 
 namespace detail {
 
-inline std::uint64_t work_of(const Counters& counters) {
-  return counters.samples + counters.neighbour_queries + 4 * counters.edges_checked;
-}
 /// What was counted since `before`, of what only grows.
 inline Counters counted_since(const Counters& before, const Counters& now) {
   Counters since;
@@ -142,7 +139,8 @@ class AnytimeSearch {
       const StageTimer timer(execution_, "search", solution_.seconds.search);
       while (!has_path() && !is_ended()) take_turn(execution_);
       if (!pulls_taut_ || options_.gap) ask_bound();
-      const std::size_t kept_back = bytes_of_the_judge();
+      constexpr std::size_t a_state = 512;  // bytes of the judge
+      const std::size_t kept_back = has_path() ? body_.judge_bytes + a_state * solution_.path.size() : 0;
       const Deadline sooner(execution_.deadline, seconds_before_the_judge(), kept_back);
       room_ -= std::min(room_, kept_back);
       Execution within = execution_;
@@ -199,10 +197,6 @@ class AnytimeSearch {
     const double judged_s = body_.judged_s(solution_.path);
     return std::max(0.0, execution_.deadline->seconds_left() - 2.0 * judged_s);
   }
-  std::size_t bytes_of_the_judge() const {
-    constexpr std::size_t a_state = 512;
-    return has_path() ? body_.judge_bytes + a_state * solution_.path.size() : 0;
-  }
   /// Once there is a path, and once only.
   void ask_bound() {
     if (!has_path() || is_straight_ || !body_.lower_bound || std::exchange(has_bound_, true)) return;
@@ -243,9 +237,8 @@ class AnytimeSearch {
   /// The straight motion to the nearest goal, where it is free, is the best there is, unless there are more goals. It
   /// is a turn by itself.
   bool try_straight() {
-    const auto nearest = std::min_element(goals_.begin(), goals_.end(), [&](const State& a, const State& b) {
-      return world_.distance(start_, a) < world_.distance(start_, b);
-    });
+    const auto nearest =
+        std::ranges::min_element(goals_, {}, [&](const State& goal) { return world_.distance(start_, goal); });
     auto query = world_.make_query();
     ++solution_.counters.edges_checked;
     if (!world_.is_free_motion(start_, *nearest, query)) return false;
@@ -424,8 +417,8 @@ class AnytimeSearch {
     if (solution.outcome == Outcome::stopped) throw Stopped(solution.stop_reason);
     ++roadmaps_;
     credit_ = 0;
-    roadmap_work_ = work_of(solution.counters);
     found.counters = solution.counters;
+    roadmap_work_ = found.counters.samples + found.counters.neighbour_queries + 4 * found.counters.edges_checked;
     found.path = solution.path;
     if (!found.path.empty()) found.cost = cost_of(found.path);
     return found;

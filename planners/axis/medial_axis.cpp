@@ -28,14 +28,8 @@ namespace boost_polygon = boost::polygon;
 
 constexpr std::size_t bytes_per_segment = 1000;
 
-/// Of the construction that runs in this thread: Boost makes its predicates itself, so they look here.
+/// Of the construction that runs in this thread, or was the last: Boost makes its predicates itself, so they look here.
 thread_local const Execution* construction = nullptr;
-
-class ConstructionScope : NotCopied {
- public:
-  explicit ConstructionScope(const Execution& execution) { construction = &execution; }
-  ~ConstructionScope() { construction = nullptr; }
-};
 
 /// Throws Stopped, every some thousand questions.
 void poll_sometimes() {
@@ -93,7 +87,7 @@ VoronoiSite site_of(const Diagram::cell_type& cell, const SnappedSegments& snapp
 void add_diagram(const SnappedSegments& snapped, MedialAxis& axis, const Execution& execution) {
   execution.check();
   execution.reserve(snapped.segments.size() * bytes_per_segment);
-  const ConstructionScope scope(execution);
+  construction = &execution;
   Builder builder;
   const auto whole = [](double coordinate) { return static_cast<std::int32_t>(coordinate); };
   for (const IntegerPiece& s : snapped.segments) {

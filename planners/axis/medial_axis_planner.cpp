@@ -103,16 +103,6 @@ std::optional<Retraction> retraction_of(const MedialAxis& axis, Vec2 p, const Ex
   return best;
 }
 
-/// Distance of the closed segment to the nearest true obstacle; infinite where there is none.
-double clearance_of_leg(const MedialAxis& axis, const Segment& leg, const Execution& execution) {
-  double least = infinity;
-  for (std::size_t i = 0; i < axis.true_obstacle_count; ++i) {
-    execution.poll(i);
-    least = std::min(least, distance(leg, axis.obstacles[i]));
-  }
-  return least;
-}
-
 /// Where p, free and inside the frame, retracts to; none where rounding hides it, or where p touches an obstacle.
 std::optional<AxisPlace> retract(const MedialAxis& axis, Vec2 p, const Execution& execution) {
   const std::optional<Retraction> ray = retraction_of(axis, p, execution);
@@ -189,26 +179,22 @@ class AxisGraph {
     return assemble_graph(vertex_count(), edges, execution_);
   }
 
-  /// The largest clearance with which start and goal are joined; negative where they aren't at all.
-  double widest() const {
+  /// Leaves the links of the largest clearance with which start and goal, which are joined, still are.
+  void narrow_to_widest() {
     std::vector<std::uint32_t> order(links_.size());
     std::iota(order.begin(), order.end(), 0U);
-    polled_sort(order.begin(), order.end(), execution_, [&](std::uint32_t i, std::uint32_t j) {
-      return links_[i].clearance != links_[j].clearance ? links_[i].clearance > links_[j].clearance : i < j;
-    });
+    polled_sort(order.begin(), order.end(), execution_,
+                [&](std::uint32_t i, std::uint32_t j) { return links_[i].clearance > links_[j].clearance; });
     std::vector<VertexId> parent(vertex_count());
     std::iota(parent.begin(), parent.end(), 0U);
-    for (std::size_t n = 0; n < order.size(); ++n) {
+    double widest = infinity;
+    for (std::size_t n = 0; root_of(parent, start()) != root_of(parent, goal()); ++n) {
       if (n % links_per_poll == 0) execution_.check();
-      const std::uint32_t i = order[n];
-      unite(parent, links_[i].from, links_[i].to);
-      if (root_of(parent, start()) == root_of(parent, goal())) return links_[i].clearance;
+      const AxisLink& next = links_[order[n]];
+      unite(parent, next.from, next.to);
+      widest = next.clearance;
     }
-    return -1.0;
-  }
-  /// Drops links with less clearance.
-  void narrow_to(double clearance) {
-    std::erase_if(links_, [&](const AxisLink& l) { return l.clearance < clearance; });
+    std::erase_if(links_, [&](const AxisLink& l) { return l.clearance < widest; });
     index_links();
   }
   /// Start to goal; lengths are the curves' for A* and Dijkstra, numbers of links else.
@@ -242,17 +228,10 @@ class AxisGraph {
     assert(best != nullptr);
     return *best;
   }
-  /// The polyline along a search's path, both ends included.
-  std::vector<Vec2> polyline(std::span<const VertexId> path) const {
-    std::vector<Vec2> points{place(path.front())};
-    for (std::size_t i = 1; i < path.size(); ++i) {
-      const AxisLink& l = link_between(path[i - 1], path[i]);
-      const bool forward = l.from == path[i - 1];
-      const auto [first, last] = forward ? std::pair(l.first, l.last) : std::pair(l.last, l.first);
-      const AxisCurve curve = axis_.curve(axis_.edges[l.edge]);
-      curve.part(first, last, place(path[i - 1]), place(path[i])).append_polyline(points);
-    }
-    return points;
+  /// Appends the polyline along a link from one of its vertices to the other, without its first point.
+  void append_polyline(const AxisLink& l, VertexId from, VertexId to, std::vector<Vec2>& points) const {
+    const auto [first, last] = l.from == from ? std::pair(l.first, l.last) : std::pair(l.last, l.first);
+    axis_.curve(axis_.edges[l.edge]).part(first, last, place(from), place(to)).append_polyline(points);
   }
 
  private:
@@ -353,7 +332,11 @@ class AxisPlanning {
     return true;
   }
   bool is_clear(const Segment& leg) const {
-    const double room = clearance_of_leg(axis(), leg, execution_);
+    double room = infinity;  // to the nearest true obstacle
+    for (std::size_t i = 0; i < axis().true_obstacle_count; ++i) {
+      execution_.poll(i);
+      room = std::min(room, distance(leg, axis().obstacles[i]));
+    }
     return room >= options_.clearance && room > 0.0;
   }
   bool join_ends() {
@@ -391,24 +374,23 @@ class AxisPlanning {
     AxisGraph graph(axis(), *start_place_, *goal_place_, clearance, execution_);
     solution_.outcome = Outcome::not_connected;
     if (!ends_are_joined(graph)) return false;
-    if (options_.objective == AxisObjective::clearance) graph.narrow_to(graph.widest());
+    if (options_.objective == AxisObjective::clearance) graph.narrow_to_widest();
     const SearchResult found = graph.search(options_.search, options_.queue);
     solution_.counters.expanded += found.expanded;
     if (found.status != SearchStatus::found) return false;
     plan_.axis_length = 0.0;
     plan_.axis_clearance = infinity;
+    std::vector<Vec2> path{start_, graph.place(found.path.front())};
     for (std::size_t i = 1; i < found.path.size(); ++i) {
       const AxisLink& link = graph.link_between(found.path[i - 1], found.path[i]);
       plan_.axis_length += link.length;
       plan_.axis_clearance = std::min(plan_.axis_clearance, link.clearance);
+      graph.append_polyline(link, found.path[i - 1], found.path[i], path);
     }
-    Path<Vec2>& path = solution_.path;
-    path.assign(1, start_);
-    const std::vector<Vec2> line = graph.polyline(found.path);
-    path.insert(path.end(), line.begin(), line.end());
     path.push_back(goal_);
     path.erase(std::unique(path.begin(), path.end()), path.end());
     if (path.size() == 1) path.push_back(path.front());
+    solution_.path.assign(path.begin(), path.end());
     solution_.outcome = Outcome::solved;
     return true;
   }

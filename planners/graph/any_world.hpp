@@ -36,27 +36,20 @@ namespace warren {
 class AnyQuery {
  public:
   template <class Query>
-  explicit AnyQuery(std::in_place_type_t<Query>, Query query) : held_(std::make_unique<Of<Query>>(std::move(query))) {}
+  explicit AnyQuery(std::in_place_type_t<Query>, Query query)
+      : held_(new Query(std::move(query)), [](void* held) { delete static_cast<Query*>(held); }),
+        refused_([](const void* held) { return refused_motions(*static_cast<const Query*>(held)); }) {}
 
   /// Query: the one that it was made of.
   template <class Query>
   Query& as() {
-    return static_cast<Of<Query>&>(*held_).query;
+    return *static_cast<Query*>(held_.get());
   }
-  std::uint64_t refused() const { return held_->refused(); }
+  std::uint64_t refused() const { return refused_(held_.get()); }
 
  private:
-  struct Held {
-    virtual ~Held() = default;
-    virtual std::uint64_t refused() const = 0;
-  };
-  template <class Query>
-  struct Of final : Held {
-    explicit Of(Query its_query) : query(std::move(its_query)) {}
-    std::uint64_t refused() const override { return refused_motions(query); }
-    Query query;
-  };
-  std::unique_ptr<Held> held_;
+  std::unique_ptr<void, void (*)(void*)> held_;
+  std::uint64_t (*refused_)(const void*);
 };
 inline std::uint64_t refused_motions(const AnyQuery& query) { return query.refused(); }
 
@@ -330,8 +323,7 @@ Separation separation_between(std::vector<PointOf<D>> start, std::vector<PointOf
     }
     return least;
   });
-  const Gap least =
-      *std::min_element(gaps.begin(), gaps.end(), [](const Gap& a, const Gap& b) { return a.distance < b.distance; });
+  const Gap least = *std::ranges::min_element(gaps, {}, &Gap::distance);
   result.nearest_gap = least.distance;
   const auto place = [](const PointOf<D>& point) {
     if constexpr (D == 2) {
@@ -376,7 +368,7 @@ void mark_stopped(Solution<State>& solution, const Stopped& stopped) {
 
 /// Runs a plan; where it is stopped its solution says so.
 template <class Plan, class... Ground>
-auto run_plan(Plan& plan, const Ground&... ground) {
+auto run_plan(Plan&& plan, const Ground&... ground) {
   try {
     plan.run(ground...);
   } catch (const Stopped& stopped) {

@@ -96,8 +96,7 @@ class Assembly {
     for (std::size_t p = 0; p < ordered_ && block < blocks_; ++p) {
       const auto& part = parts_[p];
       for (; block < blocks_ && !part.empty() && begin_of(block) <= part.back().from; ++block) {
-        const auto from_below = [](const Edge& e, VertexId v) { return e.from < v; };
-        const auto at = std::lower_bound(part.begin(), part.end(), begin_of(block), from_below);
+        const auto at = std::ranges::lower_bound(part, begin_of(block), {}, &Edge::from);
         cuts_[block] = {p, static_cast<std::size_t>(at - part.begin())};
       }
     }

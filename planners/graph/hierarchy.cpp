@@ -51,15 +51,11 @@ void check_hierarchy(const Hierarchy& hierarchy, std::size_t vertex_count, const
 
 namespace {
 
-const HierarchyEnd* end_at(const std::vector<HierarchyEnd>& ends, VertexId vertex) {
-  const auto found = std::find_if(ends.begin(), ends.end(), [&](const HierarchyEnd& e) { return e.vertex == vertex; });
-  return found == ends.end() ? nullptr : &*found;
-}
-
 /// Where an end stands on a vertex, is the next one joined to it, too? Then a search goes there at once.
 bool is_detour(const std::vector<HierarchyEnd>& ends, VertexId vertex, VertexId next) {
-  const HierarchyEnd* first = end_at(ends, vertex);
-  return first != nullptr && first->length == 0.0 && end_at(ends, next) != nullptr;
+  const auto end_at = [&](VertexId v) { return std::ranges::find(ends, v, &HierarchyEnd::vertex); };
+  const auto first = end_at(vertex);
+  return first != ends.end() && first->length == 0.0 && end_at(next) != ends.end();
 }
 
 }  // namespace

@@ -58,16 +58,13 @@ class PartsCheck {
     if (bad != states.size()) {
       fail("states[" + number(bad) + "]", "expected a finite number of at most 1e60", std::to_string(states[bad]));
     }
-    if (parts_.dimension == 3) check_headings();
-  }
-  void check_headings() const {
+    if (parts_.dimension != 3) return;
     const std::size_t n = parts_.vertex_count();
-    const std::size_t bad = first_that(n, parts_grain, execution_, [&](std::size_t v) {
-      return std::abs(parts_.states[3 * v + 2]) > largest_heading;
-    });
-    if (bad == n) return;
-    fail("states[" + number(3 * bad + 2) + "]", "expected a heading of at most 1000 rad",
-         std::to_string(parts_.states[3 * bad + 2]));
+    const std::size_t turned = first_that(n, parts_grain, execution_,
+                                          [&](std::size_t v) { return std::abs(states[3 * v + 2]) > largest_heading; });
+    if (turned == n) return;
+    fail("states[" + number(3 * turned + 2) + "]", "expected a heading of at most 1000 rad",
+         std::to_string(states[3 * turned + 2]));
   }
   void check_first() const {
     const auto first = parts_.first;
@@ -78,11 +75,6 @@ class PartsCheck {
     fail("first[" + number(bad + 1) + "]", "expected no less than " + number(first[bad]), number(first[bad + 1]));
   }
 
-  /// A chunk may have any number of ends: to be called for each of them.
-  void poll(std::size_t end) const {
-    constexpr std::size_t ends_between = std::size_t{1} << 16;
-    if (end % ends_between == 0) execution_.check();
-  }
   /// Rows ascend strictly, so that a last element below V is enough for all of them.
   bool is_sound_row(VertexId v) const {
     const std::size_t begin = parts_.first[v];
@@ -90,7 +82,7 @@ class PartsCheck {
     if (begin == last) return true;
     bool sound = parts_.to[last - 1] < parts_.vertex_count() && parts_.to[begin] != v;
     for (std::size_t end = begin + 1; end < last; ++end) {
-      poll(end);
+      execution_.poll(end);  // a chunk may have any number of them
       sound &= parts_.to[end - 1] < parts_.to[end] && parts_.to[end] != v;
     }
     return sound;
@@ -138,14 +130,9 @@ class PartsCheck {
     const std::size_t twin = twin_of(v, parts_.to[end]);
     return twin != parts_.to.size() && parts_.state_of_end(twin) == parts_.state_of_end(end);
   }
-  /// Where the row's ends to larger vertices begin.
-  std::size_t upper_begin(VertexId v) const {
-    const auto row = parts_.neighbours(v);
-    return parts_.first[v] + static_cast<std::size_t>(std::upper_bound(row.begin(), row.end(), v) - row.begin());
-  }
   bool has_all_twins(VertexId v, std::size_t begin, std::size_t last) const {
     for (std::size_t end = begin; end < last; ++end) {
-      poll(end);
+      execution_.poll(end);
       if (!has_twin(v, end)) return false;
     }
     return true;
@@ -157,9 +144,10 @@ class PartsCheck {
       std::size_t count = 0;
       for (std::size_t i = r.first; i < r.last; ++i) {
         const auto v = static_cast<VertexId>(i);
-        const std::size_t begin = upper_begin(v);
-        count += parts_.first[i + 1] - begin;
-        if (!has_all_twins(v, begin, parts_.first[i + 1])) return i;
+        const auto row = parts_.neighbours(v);
+        const auto upper = static_cast<std::size_t>(row.end() - std::upper_bound(row.begin(), row.end(), v));
+        count += upper;
+        if (!has_all_twins(v, parts_.first[i + 1] - upper, parts_.first[i + 1])) return i;
       }
       uppers[r.first / parts_grain] = count;
       return r.last;

@@ -77,11 +77,10 @@ RoadmapArrays free_arrays(const At& at, Graph graph, const Execution& execution)
     const Vec2 p = at(v);
     arrays.states.insert(arrays.states.end(), {p.x, p.y});
   }
-  arrays.edge_states.assign(edge_state_words(ends), 0);
-  for (std::size_t end = 0; end < ends; ++end) {
-    execution.poll(end);
-    set_edge_state(arrays.edge_states, end, EdgeState::free);
-  }
+  constexpr std::uint64_t all_free = 0x5555555555555555U;
+  assign_polled(arrays.edge_states, edge_state_words(ends), all_free, [&] { execution.check(); });
+  const std::size_t used = ends % edge_states_in_word;
+  if (used != 0) arrays.edge_states.back() >>= 2 * (edge_states_in_word - used);
   arrays.candidates = std::move(graph);
   return arrays;
 }

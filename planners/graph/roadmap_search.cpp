@@ -298,10 +298,8 @@ RawVector<VertexId> ReducedGraphView::expand(std::span<const VertexId> keys, con
     RawVector<VertexId> part;
     if (r.first == 0) part.push_back(vertex_of(keys.front()));
     for (std::size_t i = std::max<std::size_t>(r.first, 1); i < r.last; ++i) {
-      const std::span<const VertexId> row = reduced_.neighbours(keys[i - 1]);
-      const auto at = static_cast<std::size_t>(std::lower_bound(row.begin(), row.end(), keys[i]) - row.begin());
       VertexId before = vertex_of(keys[i - 1]);
-      VertexId v = via_[reduced_.first_end(keys[i - 1]) + at];
+      VertexId v = via_[reduced_.end_to(keys[i - 1], keys[i])];
       while (!cover_.is_key(v)) {
         execution.poll(part.size());
         part.push_back(v);

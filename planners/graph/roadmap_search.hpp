@@ -17,9 +17,11 @@
 #include <numeric>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
+#include "core/base/function_ref.hpp"
 #include "core/run/execution.hpp"
 #include "core/search/bidirectional_search.hpp"
 #include "core/search/graph.hpp"
@@ -150,8 +152,7 @@ ChainEnds follow_chain(const KeyCoverView& cover, VertexId key, VertexId via, co
     execution.poll(steps);
     const VertexId next = next_on_chain(before, at);
     sum += length(at, next);
-    before = at;
-    at = next;
+    before = std::exchange(at, next);
   }
   return {key, via, before, at, sum};
 }
@@ -160,10 +161,7 @@ ChainEnds follow_chain(const KeyCoverView& cover, VertexId key, VertexId via, co
 inline void finish_row(VertexId self, std::vector<ReducedGraphView::Chain>& row) {
   using Chain = ReducedGraphView::Chain;
   std::erase_if(row, [self](const Chain& chain) { return chain.target == self; });
-  std::sort(row.begin(), row.end(), [](const Chain& a, const Chain& b) {
-    if (a.target != b.target) return a.target < b.target;
-    return a.length != b.length ? a.length < b.length : a.via < b.via;
-  });
+  std::ranges::sort(row, {}, [](const Chain& chain) { return std::tuple(chain.target, chain.length, chain.via); });
   const auto same_target = [](const Chain& a, const Chain& b) { return a.target == b.target; };
   row.erase(std::unique(row.begin(), row.end(), same_target), row.end());
 }
@@ -351,21 +349,8 @@ class TwiceReducedGraphView {
 /// are the same for any number of threads: two threads do not repay their start on small roadmaps.
 inline constexpr std::size_t fewest_for_both_ends = 50'000;
 
-/// A function of two vertices, such as the world's distance between their states; refers to what it is made of. Called
-/// by several threads at once. 2 ns more than the function itself.
-class VertexDistance {
- public:
-  template <class Distance>
-  explicit VertexDistance(const Distance& distance)
-      : distance_(&distance), call_([](const void* function, VertexId v, VertexId w) -> double {
-          return (*static_cast<const Distance*>(function))(v, w);
-        }) {}
-  double operator()(VertexId v, VertexId w) const { return call_(distance_, v, w); }
-
- private:
-  const void* distance_;
-  double (*call_)(const void*, VertexId, VertexId);
-};
+/// A function of two vertices, such as the world's distance between their states. Called by several threads at once.
+using VertexDistance = FunctionRef<double(VertexId, VertexId)>;
 
 /// What a search of a roadmap needs besides the graph. Where the graph has lengths, `length` is not called.
 struct RoadmapSearch {

@@ -109,15 +109,6 @@ SearchResult breadth_first_over(const FreeCells& cells, const Steps& steps, Vert
   SearchResult result;
   std::vector<VertexId> level{start};
   std::vector<VertexId> next;
-  const auto expand = [&](VertexId v) {
-    for (unsigned rest = steps.allowed(v); rest != 0; rest &= rest - 1) {
-      const auto s = static_cast<unsigned>(std::countr_zero(rest));
-      const VertexId w = v + steps.offset(s);
-      if (arrived_by[w] != 0) continue;
-      arrived_by[w] = static_cast<std::uint8_t>(s + 1);
-      next.push_back(w);
-    }
-  };
   arrived_by[start] = origin;
   while (!level.empty() && arrived_by[goal] == 0) {
     if (execution.should_stop()) {
@@ -125,7 +116,15 @@ SearchResult breadth_first_over(const FreeCells& cells, const Steps& steps, Vert
       return result;
     }
     next.clear();
-    for (const VertexId v : level) expand(v);
+    for (const VertexId v : level) {
+      for (unsigned rest = steps.allowed(v); rest != 0; rest &= rest - 1) {
+        const auto s = static_cast<unsigned>(std::countr_zero(rest));
+        const VertexId w = v + steps.offset(s);
+        if (arrived_by[w] != 0) continue;
+        arrived_by[w] = static_cast<std::uint8_t>(s + 1);
+        next.push_back(w);
+      }
+    }
     result.expanded += level.size();
     level.swap(next);
   }
@@ -275,34 +274,27 @@ double cost_of(const std::vector<Cell>& cells, Diagonal diagonal) {
 struct GridSearch::Scratch {
   explicit Scratch(const Bitmap& map) : blocked(map), cells(map) {}
 
-  SearchResult best_first_search(VertexId start, VertexId goal, const GridSearchOptions& options,
-                                 const Execution& execution) {
+  SearchResult search(VertexId start, VertexId goal, const GridSearchOptions& options, const Execution& execution) {
     const auto should_stop = [&] { return execution.should_stop(); };
     const Steps steps(cells, rule_of(options.diagonal), options.diagonal);
     if (options.method == GridMethod::bfs) return breadth_first_over(cells, steps, start, goal, execution);
-    prepare(execution);
-    const bool informed = options.method == GridMethod::astar;
-    const auto remaining = [&, free = free_distance_to(goal, cells, options.diagonal)](VertexId v) {
-      return informed ? free(v) : 0.0;
-    };
-    return best_first(start, goal, steps, remaining, queue, state, should_stop);
-  }
-
-  SearchResult jump_point_search(VertexId start, VertexId goal, const Execution& execution) {
-    if (!jumps) jumps.emplace(cells, blocked, execution);
-    prepare(execution);
-    const auto successors = [&](VertexId v, const auto& visit) { jumps->visit(v, state.parent(v), goal, visit); };
-    SearchResult result = best_first(start, goal, successors, free_distance_to(goal, cells, Diagonal::sqrt2), queue,
-                                     state, [&] { return execution.should_stop(); });
-    result.path = jumps->with_steps(result.path);
-    return result;
-  }
-
-  void prepare(const Execution& execution) {
+    const bool is_jumping = options.method == GridMethod::jump_points;
+    if (is_jumping && !jumps) jumps.emplace(cells, blocked, execution);
     constexpr std::size_t bytes_a_cell = 12;
     if (state.vertex_count() < cells.number_end()) execution.reserve(cells.number_end() * bytes_a_cell);
     state.resize(cells.number_end(), [&] { execution.check(); });
     queue.clear();
+    const auto at_least = free_distance_to(goal, cells, options.diagonal);
+    if (is_jumping) {
+      const auto successors = [&](VertexId v, const auto& visit) { jumps->visit(v, state.parent(v), goal, visit); };
+      SearchResult result = best_first(start, goal, successors, at_least, queue, state, should_stop);
+      result.path = jumps->with_steps(result.path);
+      return result;
+    }
+    const auto remaining = [informed = options.method == GridMethod::astar, at_least](VertexId v) {
+      return informed ? at_least(v) : 0.0;
+    };
+    return best_first(start, goal, steps, remaining, queue, state, should_stop);
   }
 
   Bitmap blocked;
@@ -322,16 +314,14 @@ GridPath GridSearch::find(Cell start, Cell goal, const GridSearchOptions& option
       throw InputError("cell", "lies outside of the map", std::to_string(c.x) + ", " + std::to_string(c.y));
     }
   }
-  const bool jumps = options.method == GridMethod::jump_points;
-  if (jumps && options.diagonal != Diagonal::sqrt2) {
+  if (options.method == GridMethod::jump_points && options.diagonal != Diagonal::sqrt2) {
     throw InputError("jump point search", "needs diagonal steps that cost the root of 2");
   }
   const VertexId from = cells.number(start);
   const VertexId to = cells.number(goal);
   GridPath path;
   if (!cells.is_free(from) || !cells.is_free(to)) return path;
-  const SearchResult result = jumps ? scratch_->jump_point_search(from, to, execution)
-                                    : scratch_->best_first_search(from, to, options, execution);
+  const SearchResult result = scratch_->search(from, to, options, execution);
   if (result.status == SearchStatus::stopped) execution.check();
   path.status = result.status;
   path.expanded = result.expanded;

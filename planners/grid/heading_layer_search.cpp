@@ -40,11 +40,9 @@ class LayerSteps {
     }
   }
 
-  /// Calls visit(step, cost) for each step that there is at some heading.
-  template <class Visit>
-  void for_each_step(const Visit& visit) const {
-    for (const unsigned step : steps_) visit(step, costs_[step]);
-  }
+  /// Those that there are at some heading.
+  const std::vector<unsigned>& steps() const { return steps_; }
+  double cost(unsigned step) const { return costs_[step]; }
   /// Calls visit(state, cost) for each state that one step or turn leads to.
   template <class Visit>
   void for_each_next(const LayerState& s, const Visit& visit) const {
@@ -117,11 +115,11 @@ SearchState plane_costs(const LayerSteps& steps, std::span<const LayerEnd> goals
       for (const LayerEnd& goal : goals) visit(goal.state.j * layers.width + goal.state.i, goal.cost);
       return;
     }
-    steps.for_each_step([&](unsigned step, double cost) {
+    for (const unsigned step : steps.steps()) {
       const std::int64_t i = std::int64_t{v % layers.width} - cell_steps[step][0];
       const std::int64_t j = std::int64_t{v / layers.width} - cell_steps[step][1];
-      if (free.holds(i, j)) visit(static_cast<VertexId>(j * layers.width + i), cost);
-    });
+      if (free.holds(i, j)) visit(static_cast<VertexId>(j * layers.width + i), steps.cost(step));
+    }
   };
   const auto nothing_left = [](VertexId) { return 0.0; };
   const SearchResult all = best_first(behind_goals, no_vertex, neighbours, nothing_left, queue, state,
@@ -159,7 +157,19 @@ class LayerAStar {
     SearchState state;
     state.resize(layers_.states() + 2, [&] { execution_.check(); });
     BucketQueue queue(steps_.turn_cost());
-    const auto neighbours = [&](VertexId v, const auto& visit) { visit_neighbours(v, visit); };
+    const auto neighbours = [&](VertexId v, const auto& visit) {
+      if (v == before_starts()) {
+        for (const LayerEnd& start : starts_) visit(number(start.state), start.cost);
+        return;
+      }
+      if (v >= goals_.front().first && v <= goals_.back().first) {
+        const auto goal = std::lower_bound(goals_.begin(), goals_.end(), Goal{v, 0.0});
+        if (goal->first == v) visit(behind_goals(), goal->second);
+      }
+      steps_.for_each_next(state_of(v), [&](const LayerState& to, double cost) {
+        if (plane_costs_.reached(to.j * layers_.width + to.i)) visit(number(to), cost);  // else there is no way on
+      });
+    };
     const auto heuristic = [&](VertexId v) { return at_least(v); };
     return best_first(before_starts(), behind_goals(), neighbours, heuristic, queue, state,
                       [&] { return execution_.should_stop(); });
@@ -191,22 +201,6 @@ class LayerAStar {
   VertexId behind_goals() const { return static_cast<VertexId>(layers_.states() + 1); }
   VertexId number(const LayerState& s) const {
     return static_cast<VertexId>((std::uint64_t{s.j} * layers_.width + s.i) * layers_.angles + s.k);
-  }
-
-  template <class Visit>
-  void visit_neighbours(VertexId v, const Visit& visit) const {
-    if (v == before_starts()) {
-      for (const LayerEnd& start : starts_) visit(number(start.state), start.cost);
-      return;
-    }
-    const LayerState s = state_of(v);
-    if (v >= goals_.front().first && v <= goals_.back().first) {
-      const auto goal = std::lower_bound(goals_.begin(), goals_.end(), Goal{v, 0.0});
-      if (goal->first == v) visit(behind_goals(), goal->second);
-    }
-    steps_.for_each_next(s, [&](const LayerState& to, double cost) {
-      if (plane_costs_.reached(to.j * layers_.width + to.i)) visit(number(to), cost);  // else there is no way on
-    });
   }
 
   double at_least(VertexId v) const {
@@ -244,10 +238,8 @@ void check(const HeadingLayers& layers, std::span<const LayerEnd> starts, std::s
 }
 
 std::vector<LayerEnd> free_ends(const HeadingLayers& layers, std::span<const LayerEnd> ends) {
-  std::vector<LayerEnd> free;
-  for (const LayerEnd& end : ends) {
-    if (layers.is_free(end.state.i, end.state.j, end.state.k)) free.push_back(end);
-  }
+  std::vector<LayerEnd> free(ends.begin(), ends.end());
+  std::erase_if(free, [&](const LayerEnd& e) { return !layers.is_free(e.state.i, e.state.j, e.state.k); });
   return free;
 }
 

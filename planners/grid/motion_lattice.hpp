@@ -191,7 +191,6 @@ class LatticeSearch {
         execution_(execution),
         gears_(options.gear_change > 0 ? 2 : 1),
         per_cell_(space.headings() * gears_),
-        is_dead_(space.starts().size(), 0),
         starts_left_(space.starts().size(), 0) {
     const std::size_t cells = std::size_t{space.width()} * space.height();
     execution.reserve(cells * sizeof(std::uint32_t));
@@ -320,7 +319,6 @@ class LatticeSearch {
     }
     const auto starts = space_.starts();
     for (std::uint32_t i = 0; i < starts.size(); ++i) {
-      if (is_dead_[i] != 0) continue;
       const std::uint64_t at_least = starts_left_[i];
       if (at_least == no_way || starts[i].cost + at_least >= goal_cost_) continue;
       push_asked(open_, {key_of(starts[i].cost, at_least), start_flag + i}, execution_);
@@ -364,7 +362,7 @@ class LatticeSearch {
   void begin_at(std::uint32_t number) {
     execution_.check();
     const LatticeStart& start = space_.starts()[number];
-    is_dead_[number] = 1;
+    starts_left_[number] = no_way;
     if (!space_.is_free_start(number)) return;
     arrive(node_at(start.cell, start.heading, start.gear), start.cost, none, static_cast<std::uint16_t>(number));
   }
@@ -438,26 +436,24 @@ class LatticeSearch {
     path.cost = goal_cost_;
     path.shot = shot_;
     path.is_direct = goal_node_ == none;
-    if (path.is_direct) return tell(std::move(path), begin);
-    path.last = {cell_of(goal_node_), heading_of(goal_node_), 0};
-    path.cost = shot_.cost;
-    std::uint32_t node = goal_node_;
-    for (; nodes_[node].parent != none; node = nodes_[node].parent) {
-      const std::uint32_t parent = nodes_[node].parent;
-      const std::int8_t gear = gear_of(parent);
-      const auto& motion = space_.motions_from(heading_of(parent))[nodes_[node].via];
-      const bool changes = gear != 0 && motion.gear != 0 && motion.gear != gear;
-      path.cost += motion.cost + space_.extra(cell_of(parent), heading_of(parent), motion) +
-                   (changes ? options_.gear_change : 0);
-      path.steps.push_back({cell_of(parent), heading_of(parent), nodes_[node].via});
+    if (!path.is_direct) {
+      path.last = {cell_of(goal_node_), heading_of(goal_node_), 0};
+      path.cost = shot_.cost;
+      std::uint32_t node = goal_node_;
+      for (; nodes_[node].parent != none; node = nodes_[node].parent) {
+        const std::uint32_t parent = nodes_[node].parent;
+        const std::int8_t gear = gear_of(parent);
+        const auto& motion = space_.motions_from(heading_of(parent))[nodes_[node].via];
+        const bool changes = gear != 0 && motion.gear != 0 && motion.gear != gear;
+        path.cost += motion.cost + space_.extra(cell_of(parent), heading_of(parent), motion) +
+                     (changes ? options_.gear_change : 0);
+        path.steps.push_back({cell_of(parent), heading_of(parent), nodes_[node].via});
+      }
+      std::reverse(path.steps.begin(), path.steps.end());
+      path.start = nodes_[node].via;
+      path.cost += space_.starts()[path.start].cost;  // since some state was met it may have become cheaper
+      goal_cost_ = path.cost;
     }
-    std::reverse(path.steps.begin(), path.steps.end());
-    path.start = nodes_[node].via;
-    path.cost += space_.starts()[path.start].cost;  // since some state was met it may have become cheaper
-    goal_cost_ = path.cost;
-    return tell(std::move(path), begin);
-  }
-  bool tell(LatticePath path, std::chrono::steady_clock::time_point begin) {
     solution_.path = std::move(path);
     const std::chrono::duration<double> since = std::chrono::steady_clock::now() - begin;
     const double cost = options_.unit * static_cast<double>(goal_cost_);
@@ -477,8 +473,7 @@ class LatticeSearch {
   std::vector<Node> nodes_;
   std::vector<Entry> open_;  // a heap; entries that no longer say what their node does are passed over
   std::vector<std::uint32_t> waiting_;
-  std::vector<std::uint8_t> is_dead_;       // starts that were looked at
-  std::vector<std::uint64_t> starts_left_;  // what is left from each
+  std::vector<std::uint64_t> starts_left_;  // what is left from each; no_way once it was looked at
   std::uint64_t weight_ = 0;
   std::uint8_t round_ = 0;
   std::uint64_t since_shot_ = 0;

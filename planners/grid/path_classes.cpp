@@ -7,7 +7,6 @@
 #include <cmath>
 #include <map>
 #include <memory>
-#include <tuple>
 #include <utility>
 
 #include "core/base/whole.hpp"
@@ -21,37 +20,24 @@ constexpr std::uint32_t none = 0;  // the first of the states is no cell's
 constexpr unsigned left_step = 3;  // of cell_steps
 constexpr unsigned right_step = 4;
 
-/// All cells that hang together with one, by sides or corners, taken out of `left`; whether they reach the border.
-class Flood {
- public:
-  Flood(const Bitmap& blocked, const Execution& execution) : left_(blocked), execution_(execution) {}
-
-  bool is_left(std::uint32_t x, std::uint32_t y) const { return left_.test(x, y); }
-  std::uint64_t word(std::uint32_t y, std::size_t i) const { return left_.row(y)[i]; }
-  const std::vector<Cell>& from(Cell first) {
-    found_.clear();
-    take(first.x, first.y);
-    for (std::size_t i = 0; i < found_.size(); ++i) {
-      if (i % expansions_per_poll == 0) execution_.check();
-      const Cell c = found_[i];
-      for (const auto& [dx, dy] : cell_steps) {
-        const std::int64_t x = std::int64_t{c.x} + dx;
-        const std::int64_t y = std::int64_t{c.y} + dy;
-        if (left_.holds(x, y)) take(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
-      }
+/// All cells that hang together with one, by sides or corners, taken out of `left`.
+void flood(Bitmap& left, Cell first, std::vector<Cell>& found, const Execution& execution) {
+  const auto take = [&](std::uint32_t x, std::uint32_t y) {
+    left.clear(x, y);
+    found.push_back({x, y});
+  };
+  found.clear();
+  take(first.x, first.y);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (i % expansions_per_poll == 0) execution.check();
+    const Cell c = found[i];
+    for (const auto& [dx, dy] : cell_steps) {
+      const std::int64_t x = std::int64_t{c.x} + dx;
+      const std::int64_t y = std::int64_t{c.y} + dy;
+      if (left.holds(x, y)) take(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
     }
-    return found_;
   }
-
- private:
-  void take(std::uint32_t x, std::uint32_t y) {
-    left_.clear(x, y);
-    found_.push_back({x, y});
-  }
-  Bitmap left_;
-  const Execution& execution_;
-  std::vector<Cell> found_;
-};
+}
 
 /// All words that were met; a word is the number of its last letter. 0 is the empty one.
 class Words {
@@ -202,17 +188,18 @@ HoleCuts::HoleCuts(const Bitmap& blocked, double least, const Execution& executi
   cells_ = Bitmap(blocked.width(), blocked.height());
   cut_cells_ = cells_;
   Bitmap rim = cells_;  // hangs together with the border
-  Flood flood(blocked, execution);
+  Bitmap left = blocked;
+  std::vector<Cell> found;
   std::vector<Cell> lowest;
   for (std::uint32_t y = 0; y < blocked.height(); ++y) {
     execution.check();
     for (std::uint32_t x = 0; x < blocked.width(); ++x) {
-      if (!flood.is_left(x, y)) {
-        if (flood.word(y, x / Bitmap::word_bits) == 0) x |= Bitmap::word_bits - 1;
+      if (!left.test(x, y)) {
+        if (left.row(y)[x / Bitmap::word_bits] == 0) x |= Bitmap::word_bits - 1;
         continue;
       }
       Hole hole{{x, y}, {x, y}};
-      const std::vector<Cell>& found = flood.from({x, y});
+      flood(left, {x, y}, found, execution);
       for (const Cell c : found) {
         hole.low = {std::min(hole.low.x, c.x), std::min(hole.low.y, c.y)};
         hole.high = {std::max(hole.high.x, c.x), std::max(hole.high.y, c.y)};
@@ -235,17 +222,12 @@ HoleCuts::HoleCuts(const Bitmap& blocked, double least, const Execution& executi
     while (low > 0 && !ends_at(x, low - 1) && !ends_at(x + 1, low - 1)) cut_cells_.set(x, --low);
     if (low < top) push_asked(cuts_, {x, low, top, as_whole<std::int32_t>(i + 1)}, execution);
   }
-  std::sort(cuts_.begin(), cuts_.end(),
-            [](const Cut& a, const Cut& b) { return std::tie(a.column, a.low) < std::tie(b.column, b.low); });
+  std::ranges::sort(cuts_, {}, &Cut::begin);
 }
 
 std::int32_t HoleCuts::hole_at(std::uint32_t column, std::uint32_t row) const {
   if (!cut_cells_.holds(column, row)) return 0;
-  const auto after =
-      std::upper_bound(cuts_.begin(), cuts_.end(), std::pair{column, row}, [](const auto& at, const Cut& cut) {
-        return at < std::pair{cut.column, cut.low};
-      });
-  return std::prev(after)->hole;
+  return std::prev(std::ranges::upper_bound(cuts_, std::pair{column, row}, {}, &Cut::begin))->hole;
 }
 
 std::int32_t HoleCuts::letter(Cell from, unsigned step) const {
@@ -271,14 +253,13 @@ std::vector<std::int32_t> HoleCuts::word(std::span<const Vec2> path) const {
     const Vec2 a = path[i - 1];
     const Vec2 b = path[i];
     const bool to_right = a.x < b.x;
-    const double low = std::min(a.x, b.x);
-    const double high = std::max(a.x, b.x);
-    // Lines low < x <= high: so a place on a line counts as one to its right, whichever leg it ends.
+    // Lines beyond the left end and up to the right one: so a place on a line counts as one to its right, whichever leg
+    // it ends.
     const auto column = [&](double x) {
       return bounded_whole<std::uint32_t>(std::floor(x), 0.0, static_cast<double>(cut_cells_.width()));
     };
-    const std::uint32_t first = column(low);
-    const std::uint32_t last = column(high);  // lines first + 1 .. last
+    const std::uint32_t first = column(std::min(a.x, b.x));
+    const std::uint32_t last = column(std::max(a.x, b.x));  // lines first + 1 .. last
     for (std::uint32_t n = 0; n < last - first; ++n) {
       const std::uint32_t line = to_right ? first + 1 + n : last - n;
       const double y = a.y + (b.y - a.y) * ((static_cast<double>(line) - a.x) / (b.x - a.x));

@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/base/bitmap.hpp"
@@ -49,6 +50,7 @@ class HoleCuts {
     std::uint32_t low;     // its first row, and the one above its last
     std::uint32_t high;
     std::int32_t hole;
+    std::pair<std::uint32_t, std::uint32_t> begin() const { return {column, low}; }
   };
   std::int32_t hole_at(std::uint32_t column, std::uint32_t row) const;
 

@@ -54,10 +54,9 @@ PriceField::PriceField(StepWeights& weights, std::span<const Goal> goals, std::s
       buckets_(bucket_count) {
   for (std::size_t i = 0; i < goals_.size(); ++i) {
     const VertexId v = weights_.cells().number(goals_[i].cell);
-    goal_cells_.emplace_back(v, i);
+    goal_cells_.emplace(v, i);
     if (weights_.cells().is_free(v) && goals_[i].cost < known(v)) reach(v, goals_[i].cost);
   }
-  std::sort(goal_cells_.begin(), goal_cells_.end());
 }
 
 std::uint64_t PriceField::estimate(VertexId v) const {
@@ -118,8 +117,7 @@ void PriceField::settle_all(const Execution& execution) {
 std::uint64_t PriceField::over_neighbours(VertexId v, std::uint64_t enough) {
   if (!weights_.cells().is_free(v)) return unreached;
   std::uint64_t least = unreached;
-  for (auto goal = std::lower_bound(goal_cells_.begin(), goal_cells_.end(), std::pair{v, std::size_t{0}});
-       goal != goal_cells_.end() && goal->first == v; ++goal) {
+  for (auto [goal, end] = goal_cells_.equal_range(v); goal != end; ++goal) {
     least = std::min(least, goals_[goal->second].cost);
   }
   for (unsigned rest = weights_.allowed(v); rest != 0 && least > enough; rest &= rest - 1) {
@@ -178,8 +176,7 @@ std::pair<std::vector<Cell>, std::size_t> PriceField::path(Cell from, const Exec
   VertexId v = weights_.cells().number(from);
   for (;;) {
     if (cells.size() % expansions_per_poll == 0) execution.check();
-    for (auto goal = std::lower_bound(goal_cells_.begin(), goal_cells_.end(), std::pair{v, std::size_t{0}});
-         goal != goal_cells_.end() && goal->first == v; ++goal) {
+    for (auto [goal, end] = goal_cells_.equal_range(v); goal != end; ++goal) {
       if (goals_[goal->second].cost == known(v)) return {cells, goal->second};
     }
     const VertexId before = v;

@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <functional>
+#include <map>
 #include <memory>
 #include <new>
 #include <optional>
@@ -196,7 +197,7 @@ class PriceField {
   StepWeights& weights_;
   std::vector<Cell> towards_;
   std::vector<Goal> goals_;
-  std::vector<std::pair<VertexId, std::size_t>> goal_cells_;  // sorted
+  std::multimap<VertexId, std::size_t> goal_cells_;  // of equal cells the first goal first
   ZeroPages<std::uint64_t> costs_;
   std::vector<std::vector<VertexId>> buckets_;  // of keys, in turns; their order within decides nothing
   std::uint64_t current_ = 0;                   // all keys below were expanded

@@ -87,18 +87,17 @@ class PricedTriangles {
         if (is_outside(x, y) || field.distance(x, y) >= paid) continue;
         std::array<double, 4> farthest_sq;
         farthest_sq.fill(std::numeric_limits<double>::infinity());
-        const auto take = [&](double dx, double dy) { nearer_by_square(dx, dy, farthest_sq); };
         const std::int64_t left = std::max<std::int64_t>(-1, std::int64_t{x} - around);
         const std::int64_t right = std::min<std::int64_t>(width(), std::int64_t{x} + around);
         for (std::int64_t column = left; column <= right; ++column) {
           const double dx = static_cast<double>(column - std::int64_t{x});
           if (column < 0 || column == std::int64_t{width()}) {
-            take(dx, 0.0);
+            nearer_by_square(dx, 0.0, farthest_sq);
             continue;
           }
           const std::size_t at = std::size_t{y} * width() + as_whole<std::size_t>(column);
-          take(dx, above[at] - static_cast<double>(y));
-          take(dx, below[at] - static_cast<double>(y));
+          nearer_by_square(dx, above[at] - static_cast<double>(y), farthest_sq);
+          nearer_by_square(dx, below[at] - static_cast<double>(y), farthest_sq);
         }
         for (std::size_t i = 0; i < 4; ++i) {
           const double share = 1.0 - (std::sqrt(farthest_sq[i]) - question_.radius) / question_.reach;
@@ -287,12 +286,11 @@ class Marching {
   double at(Vec2 p, Cell cell) const {
     const double x = std::clamp(p.x - cell.x, 0.0, 1.0);
     const double y = std::clamp(p.y - cell.y, 0.0, 1.0);
-    const auto value = [&](std::size_t i) { return values_.values[corner(cell, i)]; };
     const std::size_t i = y <= x ? (y <= 1.0 - x ? 0 : 1) : (y <= 1.0 - x ? 3 : 2);
     const std::array<double, 4> share_along{x, y, 1.0 - x, 1.0 - y};
     const std::array<double, 4> share_in{y, 1.0 - x, 1.0 - y, x};
-    const double a = value(i);
-    const double b = value((i + 1) % 4);
+    const double a = values_.values[corner(cell, i)];
+    const double b = values_.values[corner(cell, (i + 1) % 4)];
     const double m = values_.values[middle(cell)];
     return a + (b - a) * share_along[i] + ((m - a) + (m - b)) * share_in[i];
   }

@@ -7,11 +7,13 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <optional>
 
 #include "core/base/trigonometry.hpp"
 #include "core/base/types.hpp"
 #include "core/search/search.hpp"
+#include "core/search/union_find.hpp"
 #include "parallel/asked_memory.hpp"
 #include "parallel/sort.hpp"
 #include "planners/graph/any_world.hpp"
@@ -46,28 +48,6 @@ constexpr std::array<bool, 256> simple_table = [] {
   return table;
 }();
 
-/// Cells wait by their distance, and among equals in the order in which they came.
-class WaitingCells {
- public:
-  bool empty() const { return by_distance_.empty(); }
-  void push(std::uint32_t distance, std::uint32_t cell, const Execution& execution) {
-    push_asked(by_distance_[distance].cells, cell, execution);
-  }
-  std::uint32_t pop() {
-    const auto first = by_distance_.begin();
-    const std::uint32_t cell = first->second.cells[first->second.next++];
-    if (first->second.next == first->second.cells.size()) by_distance_.erase(first);
-    return cell;
-  }
-
- private:
-  struct Line {
-    std::vector<std::uint32_t> cells;
-    std::size_t next = 0;
-  };
-  std::map<std::uint32_t, Line> by_distance_;
-};
-
 class Thinning {
  public:
   Thinning(const Bitmap& blocked, const DistanceField& field, std::span<const Cell> kept, SkeletonEnds ends,
@@ -88,7 +68,10 @@ class Thinning {
     constexpr std::uint64_t batch = 1 << 14;
     for (std::uint64_t done = 1; !waiting_.empty(); ++done) {
       if (done % batch == 0) execution_.check();
-      const std::uint32_t number = waiting_.pop();
+      const auto nearest = waiting_.begin();
+      Line& line = nearest->second;
+      const std::uint32_t number = line.cells[line.next++];
+      if (line.next == line.cells.size()) waiting_.erase(nearest);
       const Cell cell{number % width_, number / width_};
       waits_.clear(cell.x, cell.y);
       const unsigned near = around(cell);
@@ -98,6 +81,11 @@ class Thinning {
   }
 
  private:
+  /// Cells of one distance, in the order in which they came.
+  struct Line {
+    std::vector<std::uint32_t> cells;
+    std::size_t next = 0;
+  };
   unsigned around(Cell cell) const {
     unsigned bits = 0;
     for (unsigned i = 0; i < ring.size(); ++i) {
@@ -128,7 +116,7 @@ class Thinning {
   void wait(Cell cell) {
     if (waits_.test(cell.x, cell.y)) return;
     waits_.set(cell.x, cell.y);
-    waiting_.push(field_.squared(cell.x, cell.y), cell.y * width_ + cell.x, execution_);
+    push_asked(waiting_[field_.squared(cell.x, cell.y)].cells, cell.y * width_ + cell.x, execution_);
   }
   /// The cells at a border; those inside follow when their neighbours go.
   void line_up() {
@@ -155,7 +143,7 @@ class Thinning {
   Bitmap rest_;
   Bitmap waits_;
   std::span<const Cell> kept_;
-  WaitingCells waiting_;
+  std::map<std::uint32_t, Line> waiting_;  // by their distance
 };
 
 /// The set cells of a bitmap, such as a map's skeleton, as vertices of a graph, numbered row by row.
@@ -186,8 +174,6 @@ class NumberedCells {
   struct Neighbours {
     std::array<VertexId, 4> cell{};
     std::size_t count = 0;
-    std::size_t size() const { return count; }
-    VertexId front() const { return cell[0]; }
     auto begin() const { return cell.begin(); }
     auto end() const { return cell.begin() + static_cast<std::ptrdiff_t>(count); }
   };
@@ -281,7 +267,7 @@ class SkeletonPlan {
 
   void join_end_to_axis(VertexId end, std::vector<std::uint32_t>& widths) const {
     VertexId before = no_vertex;
-    for (VertexId v = end; v != no_vertex;) {
+    for (VertexId v = end;;) {
       widths[v] = DistanceField::far;
       VertexId next = no_vertex;
       int ways = 0;
@@ -290,43 +276,34 @@ class SkeletonPlan {
         next = w;
         ++ways;
       }
-      const bool goes_on = ways == 1 && widths[next] != DistanceField::far;
-      before = v;
-      v = goes_on ? next : no_vertex;
+      if (ways != 1 || widths[next] == DistanceField::far) return;
+      before = std::exchange(v, next);
     }
   }
 
-  static std::vector<Edge> at_least(std::span<const Edge> edges, std::span<const std::uint32_t> widths,
-                                    std::uint32_t least) {
-    std::vector<Edge> wide;
-    for (const Edge& e : edges) {
-      if (widths[e.from] >= least && widths[e.to] >= least) wide.push_back(e);
+  /// Leaves the edges of the largest width at which start and goal, which are joined, still are.
+  void narrow_to_widest() {
+    // The widths, the sets that are joined, and the edges by their widths.
+    execution_.reserve(cells_->size() * 2 * sizeof(std::uint32_t) + edges_.size() * sizeof(Edge));
+    const std::vector<std::uint32_t> widths = this->widths();
+    const auto width = [&](const Edge& e) { return std::min(widths[e.from], widths[e.to]); };
+    std::vector<Edge> order = edges_;
+    polled_sort(order.begin(), order.end(), execution_,
+                [&](const Edge& e, const Edge& f) { return width(e) > width(f); });
+    std::vector<VertexId> parent(cells_->size());
+    std::iota(parent.begin(), parent.end(), 0U);
+    std::uint32_t least = DistanceField::far;
+    for (std::size_t i = 0; root_of(parent, start()) != root_of(parent, goal()); ++i) {
+      execution_.poll(i);
+      least = width(order[i]);
+      unite(parent, order[i].from, order[i].to);
     }
-    return wide;
-  }
-
-  /// The largest width at which start and goal are joined; they are at the least one.
-  std::uint32_t widest(std::span<const std::uint32_t> widths) const {
-    std::vector<std::uint32_t> levels(widths.begin(), widths.end());
-    polled_sort(levels.begin(), levels.end(), execution_);
-    levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
-    std::size_t low = 0;  // joins; from `high` on nothing does
-    for (std::size_t high = levels.size(); high - low > 1;) {
-      const std::size_t middle = low + (high - low) / 2;
-      const Graph wide = assemble_graph(cells_->size(), at_least(edges_, widths, levels[middle]), execution_);
-      (components(wide, execution_).connected(start(), goal()) ? low : high) = middle;
-    }
-    return levels[low];
+    std::erase_if(edges_, [&](const Edge& e) { return width(e) < least; });
   }
 
   void search() {
     const StageTimer timer(execution_, "search", plan_.seconds.search, cells_->size());
-    if (options_.objective == AxisObjective::clearance) {
-      // The widths, their levels, and the wide edges while their list grows.
-      execution_.reserve(cells_->size() * 2 * sizeof(std::uint32_t) + edges_.size() * 3 * sizeof(Edge));
-      const std::vector<std::uint32_t> wide = widths();
-      edges_ = at_least(edges_, wide, widest(wide));
-    }
+    if (options_.objective == AxisObjective::clearance) narrow_to_widest();
     const auto length = [&](VertexId v, VertexId w) {
       const Cell a = cells_->cell(v);
       const Cell b = cells_->cell(w);
@@ -380,11 +357,11 @@ class LinesOfSkeleton {
   SkeletonLines run() {
     for (VertexId v = 0; v < cells_.size(); ++v) {
       execution_.poll(v);
-      if (cells_.neighbours(v).size() != 2) follow_all(v);
+      if (cells_.neighbours(v).count != 2) follow_all(v);
     }
     for (VertexId v = 0; v < cells_.size(); ++v) {  // what is left are rings
       execution_.poll(v);
-      if (passed_[v] == 0 && cells_.neighbours(v).size() == 2) follow(v, cells_.neighbours(v).front());
+      if (passed_[v] == 0 && cells_.neighbours(v).count == 2) follow(v, cells_.neighbours(v).cell[0]);
     }
     return numbered();
   }
@@ -394,16 +371,16 @@ class LinesOfSkeleton {
   void follow_all(VertexId v) {
     passed_[v] = 1;
     for (const VertexId next : cells_.neighbours(v)) {
-      const bool chain = cells_.neighbours(next).size() == 2;
+      const bool chain = cells_.neighbours(next).count == 2;
       if (chain ? passed_[next] == 0 : v < next) follow(v, next);
     }
-    if (cells_.neighbours(v).size() == 0) push_asked(points_, v, execution_);
+    if (cells_.neighbours(v).count == 0) push_asked(points_, v, execution_);
   }
 
   /// From one cell over the next to where the chain ends, or closes.
   void follow(VertexId from, VertexId next) {
     chain_.assign({from, next});
-    while (next != from && cells_.neighbours(next).size() == 2) {
+    while (next != from && cells_.neighbours(next).count == 2) {
       execution_.poll(chain_.size());
       passed_[next] = 1;
       const auto near = cells_.neighbours(next);

@@ -342,7 +342,7 @@ class CoreReduction {
 
   void run() {
     execution_.reserve(graph_.size() * 8);
-    gone_.assign(graph_.size(), 0);
+    assign_polled(gone_, graph_.size(), std::uint8_t{0}, [&] { execution_.check(); });
     std::uint64_t steps = 0;
     for (JunctionId v = 0; v < graph_.size(); ++v) {
       todo_.push_back(v);

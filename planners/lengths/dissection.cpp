@@ -182,8 +182,7 @@ class RegionCut {
 
   /// The chains from both faces back to the first one; what both ways share is not crossed.
   void list_crossed(HalfEdge crossing) {
-    crossed_.clear();
-    crossed_.push_back(crossing);
+    crossed_.assign(1, crossing);
     Face left = face_[crossing];
     Face right = face_[region_->twin[crossing]];
     while (left != right) {

@@ -92,15 +92,12 @@ class PieceBuilder {
   /// Of a piece's children the largest is heavy, of equal ones the first.
   void choose_heavy() {
     const std::size_t count = exits_.size();
-    RawVector<std::uint32_t> children(count);  // that are still to come
-    RawVector<std::uint32_t> size(count);
-    heavy_.resize(count);
-    for (std::size_t i = 0; i < count; ++i) {
-      execution_.poll(i);
-      children[i] = 0;
-      size[i] = 1;
-      heavy_[i] = no_piece;
-    }
+    const auto poll = [this] { execution_.check(); };
+    RawVector<std::uint32_t> children;  // that are still to come
+    RawVector<std::uint32_t> size;
+    assign_polled(children, count, std::uint32_t{0}, poll);
+    assign_polled(size, count, std::uint32_t{1}, poll);
+    assign_polled(heavy_, count, no_piece, poll);
     for (std::size_t i = 0; i < count; ++i) {
       execution_.poll(i);
       if (exits_[i].parent != no_piece) ++children[exits_[i].parent];
@@ -254,8 +251,7 @@ std::vector<RouteSection> sections_of(std::span<const std::uint64_t> right, std:
 
 template <class T>
 ArrayOrView<T> elements(std::span<const RouteSection> sections, std::string_view name) {
-  const auto found =
-      std::find_if(sections.begin(), sections.end(), [&](const RouteSection& s) { return s.name == name; });
+  const auto found = std::ranges::find(sections, name, &RouteSection::name);
   if (found == sections.end()) throw InputError("route index", "a section is missing", name);
   if (found->bytes.size() % sizeof(T) != 0 || found->element_bytes != sizeof(T)) {
     throw InputError("route index", "elements of a section need " + std::to_string(sizeof(T)) + " bytes", name);

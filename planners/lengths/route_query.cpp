@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "parallel/chunks.hpp"
 #include "planners/lengths/separator_fronts.hpp"
 #include "planners/lengths/tree_routes.hpp"
 
@@ -112,17 +111,14 @@ class CoreSearch {
     for (unsigned open = index_.passages().open_at(places.col(at.place), places.row(at.place)); open != 0;
          open &= open - 1) {
       const LatticePlace next = places.step(at.place, static_cast<unsigned>(std::countr_zero(open)));
-      if (next == seen_[at.from].place || !is_core(next, at.place)) continue;
-      if (!enter(next, static_cast<std::uint32_t>(seen_.size()))) continue;
+      if (next == seen_[at.from].place) continue;
+      if (LatticePlaces::tile_of(next) != LatticePlaces::tile_of(at.place)) {
+        index_.look_at_tile(next);
+        index_.marks().prefetch_tile(LatticePlaces::tile_of(next));
+      }
+      if (!index_.marks().is_core(next) || !enter(next, static_cast<std::uint32_t>(seen_.size()))) continue;
       seen_.push_back({next, at.steps + 1, number});
     }
-  }
-  bool is_core(LatticePlace next, LatticePlace from) const {
-    if (LatticePlaces::tile_of(next) != LatticePlaces::tile_of(from)) {
-      index_.look_at_tile(next);
-      index_.marks().prefetch_tile(LatticePlaces::tile_of(next));
-    }
-    return index_.marks().is_core(next);
   }
   bool enter(LatticePlace p, std::uint32_t number) {
     if (2 * seen_.size() > slots_.size()) grow();
@@ -338,8 +334,10 @@ class HopWalk : public MarkWalk {
   }
   void step() {
     unsigned onwards = exits() & ~came_from_;
-    if ((one_exit >> onwards & 1U) == 0) [[unlikely]]
-      onwards = choice(onwards);
+    if ((one_exit >> onwards & 1U) == 0) [[unlikely]] {
+      if (onwards == 0) refuse_hop();
+      onwards = next_turn(onwards, turns_);
+    }
     const auto way = static_cast<unsigned>(std::countr_zero(onwards));
     came_from_ = 1U << (way ^ 2U);
     if (!go(way)) [[unlikely]]
@@ -371,10 +369,6 @@ class HopWalk : public MarkWalk {
     index_.look_at_tile(p);
     const std::uint64_t* const row = marks_.tile(0) + std::size_t{p / 64} * mark_word::count;
     return (row[word] & row[mark_word::core] & std::uint64_t{1} << p % 64) != 0;
-  }
-  unsigned choice(unsigned onwards) {
-    if (onwards == 0) refuse_hop();
-    return next_turn(onwards, turns_);
   }
 
   HopTurns turns_ = 0;      // those that are left
@@ -409,10 +403,7 @@ class FrontUnpacking {
     }
     // Along the path neighbours share tiles.
     std::sort(hops_.begin(), hops_.end(), [](const Hop& a, const Hop& b) { return a.first < b.first; });
-    constexpr std::size_t grain = 512;
-    const std::span<const Hop> hops = hops_;
-    for_chunks(hops.size(), grain, execution,
-               [&](Range r) { walk_side_by_side<HopWalk>(index_, hops.subspan(r.first, r.size())); });
+    walk_all<HopWalk>(index_, std::span<const Hop>(hops_), 512, execution);
   }
 
  private:

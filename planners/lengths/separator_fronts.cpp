@@ -205,14 +205,13 @@ class LeafElimination {
   void load(std::span<const JunctionId> leaf) {
     assert(leaf.size() + bounds_.size() <= most);
     std::fill_n(neighbours_.begin(), leaf.size() + bounds_.size(), Neighbours{});
-    std::fill_n(slots_.begin(), leaf.size() + bounds_.size(), std::uint8_t{0});
     for (std::size_t v = 0; v < leaf.size(); ++v) {
+      slots_[v] = slots_of(graph_, leaf[v]);
       for (HalfEdge h = 4 * leaf[v]; h < 4 * leaf[v] + 4; ++h) {
         const HalfEdge twin = graph_.twin[h];
         if (twin == no_half_edge) continue;
         const GateRank rank = rank_[twin / 4];
         const std::size_t end = rank == no_rank ? place_in(leaf, twin / 4) : leaf.size() + place_in(bounds_, rank);
-        slots_[v] = static_cast<std::uint8_t>(slots_[v] | 1U << h % 4);
         if (rank != no_rank) slots_[end] = slots_of(graph_, twin / 4);
         join(v, end, graph_.length[h], {chain, static_cast<std::uint8_t>(h % 4), static_cast<std::uint8_t>(twin % 4)});
       }
@@ -328,8 +327,7 @@ class FrontPart {
       Front& front = fronts_[i];
       if (front.bounds == 0) continue;
       const GateRank lowest = bounds_[front.first_bound];
-      const auto after = std::upper_bound(fronts_.begin(), fronts_.end(), lowest,
-                                          [](GateRank rank, const Front& f) { return rank < f.first; });
+      const auto after = std::ranges::upper_bound(fronts_, lowest, {}, &Front::first);
       front.parent = static_cast<FrontId>(after - fronts_.begin() - 1);
     }
   }

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "core/base/error.hpp"
-#include "parallel/chunks.hpp"
 
 namespace warren {
 namespace {
@@ -30,9 +29,7 @@ class ClimbWalk : public MarkWalk {
 }  // namespace
 
 void write_climbs(const RouteIndex& index, std::span<const MarkedWay> legs, const Execution& execution) {
-  constexpr std::size_t grain = 16;
-  for_chunks(legs.size(), grain, execution,
-             [&](Range r) { walk_side_by_side<ClimbWalk>(index, legs.subspan(r.first, r.size())); });
+  walk_all<ClimbWalk>(index, legs, 16, execution);
 }
 
 TreeRoutes::Climber TreeRoutes::climber(LatticePlace from, const Climb& climb) const {
@@ -69,6 +66,8 @@ void TreeRoutes::step_out(Climber& climber) const {
   pieces_.prefetch(climber.at);
 }
 
+/// In one piece both ways lead to its exit, outside of all to the core or the root of their tree, and where they meet
+/// both have as many steps left.
 TreeJoin TreeRoutes::join(LatticePlace start, LatticePlace goal) const {
   pieces_.prefetch(start);
   pieces_.prefetch(goal);
@@ -82,29 +81,16 @@ TreeJoin TreeRoutes::join(LatticePlace start, LatticePlace goal) const {
   step_out(to);
   index_.look_at_tile(from.at);
   index_.look_at_tile(to.at);
-  return meet(from, to);
-}
-
-/// In its tile: to the exit of the piece that it is in, or to the core or the root of its tree.
-Climb TreeRoutes::rest_of(const Climber& climber) const {
-  if (climber.left == no_piece) return climber.climb;
-  if (climber.piece == no_piece) return pieces_.climb(climber.at);
-  return {climber.at, climber.depth - climber.steps - pieces_.piece(climber.piece).depth, false};
-}
-
-/// In one piece both ways lead to its exit, outside of all to the core or the root of their tree, and where they meet
-/// both have as many steps left.
-TreeJoin TreeRoutes::meet(const Climber& start, const Climber& goal) const {
-  const Climb rest_a = rest_of(start);
-  const Climb rest_b = rest_of(goal);
-  const TreeJoin apart{start.steps + rest_a.steps, goal.steps + rest_b.steps, rest_a.last, rest_b.last};
-  if (start.piece == no_piece && !apart.in_tree()) return apart;
-  if (LatticePlaces::tile_of(start.at) != LatticePlaces::tile_of(goal.at)) refuse_climb();
+  const Climb rest_a = rest_of(from);
+  const Climb rest_b = rest_of(to);
+  const TreeJoin apart{from.steps + rest_a.steps, to.steps + rest_b.steps, rest_a.last, rest_b.last};
+  if (from.piece == no_piece && !apart.in_tree()) return apart;
+  if (LatticePlaces::tile_of(from.at) != LatticePlaces::tile_of(to.at)) refuse_climb();
   std::uint32_t left_a = rest_a.steps;
   std::uint32_t left_b = rest_b.steps;
   if (std::max(left_a, left_b) > LatticePlaces::tile_places) refuse_climb();
-  TileClimb a(marks_, start.at);
-  TileClimb b(marks_, goal.at);
+  TileClimb a(index_.marks(), from.at);
+  TileClimb b(index_.marks(), to.at);
   for (; left_a > left_b; --left_a) a.step();
   for (; left_b > left_a; --left_b) b.step();
   for (; a.place() != b.place() && left_a > 0; --left_a) {
@@ -113,6 +99,13 @@ TreeJoin TreeRoutes::meet(const Climber& start, const Climber& goal) const {
   }
   if (a.place() != b.place()) refuse_climb();
   return {apart.start_steps - left_a, apart.goal_steps - left_a, a.place(), a.place()};
+}
+
+/// In its tile: to the exit of the piece that it is in, or to the core or the root of its tree.
+Climb TreeRoutes::rest_of(const Climber& climber) const {
+  if (climber.left == no_piece) return climber.climb;
+  if (climber.piece == no_piece) return pieces_.climb(climber.at);
+  return {climber.at, climber.depth - climber.steps - pieces_.piece(climber.piece).depth, false};
 }
 
 /// Pieces become less on the way, and their depths say how far on it their doors are.

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/run/execution.hpp"
+#include "parallel/chunks.hpp"
 #include "planners/lengths/route_index.hpp"
 
 namespace warren {
@@ -99,26 +100,29 @@ class MarkWalk : protected WalkedCells {
   const std::uint64_t* words_ = nullptr;
 };
 
-/// Makes walks of all ways, four side by side. Walk: a MarkWalk with begin(way) and step(); ways are MarkedWays.
+/// Makes walks of all ways on all threads, `grain` ways a chunk, four side by side. Walk: a MarkWalk with begin(way)
+/// and step(); ways are MarkedWays. Throws what these throw, and Stopped.
 template <class Walk, class Way>
-void walk_side_by_side(const RouteIndex& index, std::span<const Way> ways) {
+void walk_all(const RouteIndex& index, std::span<const Way> ways, std::size_t grain, const Execution& execution) {
   constexpr std::size_t ahead = 4;  // ways whose first tile is asked for before their turn
-  std::array<Walk, 4> walks{Walk(index), Walk(index), Walk(index), Walk(index)};
-  std::size_t next = 0;
-  for (bool goes = true; goes;) {
-    goes = false;
-    for (Walk& walk : walks) {
-      if (walk.goes()) {
-        walk.step();
-      } else if (next < ways.size()) {
-        walk.begin(ways[next++]);
-        if (next + ahead < ways.size()) walk.prefetch(ways[next + ahead].from);
-      } else {
-        continue;
+  for_chunks(ways.size(), grain, execution, [&](Range r) {
+    std::array<Walk, 4> walks{Walk(index), Walk(index), Walk(index), Walk(index)};
+    std::size_t next = r.first;
+    for (bool goes = true; goes;) {
+      goes = false;
+      for (Walk& walk : walks) {
+        if (walk.goes()) {
+          walk.step();
+        } else if (next < r.last) {
+          walk.begin(ways[next++]);
+          if (next + ahead < r.last) walk.prefetch(ways[next + ahead].from);
+        } else {
+          continue;
+        }
+        goes = true;
       }
-      goes = true;
     }
-  }
+  });
 }
 
 /// Writes the cells of all legs, parts of ways to the core, but for the one that each leads to, from marks alone: some
@@ -139,7 +143,7 @@ struct TreeJoin {
 /// Looks at the index; any number of threads may.
 class TreeRoutes {
  public:
-  explicit TreeRoutes(const RouteIndex& index) : index_(index), marks_(index.marks()), pieces_(index.pieces()) {}
+  explicit TreeRoutes(const RouteIndex& index) : index_(index), pieces_(index.pieces()) {}
 
   TreeJoin join(LatticePlace start, LatticePlace goal) const;
   /// Adds the legs of a climb to its end, cut at doors, so that many threads may write them. Throws InputError.
@@ -159,10 +163,8 @@ class TreeRoutes {
   void climb_to_one_piece(Climber& start, Climber& goal) const;
   void step_out(Climber& climber) const;
   Climb rest_of(const Climber& climber) const;
-  TreeJoin meet(const Climber& start, const Climber& goal) const;
 
   const RouteIndex& index_;
-  CellMarks marks_;
   PieceForest pieces_;
 };
 

@@ -393,14 +393,6 @@ void begin(StepSide& side, const Overlay& overlay, VertexId end, const EndLinks&
   }
 }
 
-double longest_link(const OverlayEnds& ends) {
-  double longest = 0.0;
-  for (const EndLinks* end : {&ends.start, &ends.goal}) {
-    for (const EndLink& link : end->links) longest = std::max(longest, link.length);
-  }
-  return longest;
-}
-
 std::uint16_t number_of(const TileSummary& tile, std::uint32_t place) {
   const auto found = std::lower_bound(tile.keys.begin(), tile.keys.end(), place);
   return static_cast<std::uint16_t>(found - tile.keys.begin());
@@ -581,7 +573,7 @@ RawVector<VertexId> StepSide::path_from(VertexId v) const {
   push_asked(path, v, execution_);
   const auto is_root = [&](VertexId key) {
     return std::any_of(roots_.begin(), roots_.end(),
-                       [&](const Root& root) { return root.key == key && root.length == label(key); });
+                       [&](const Told& root) { return root.key == key && root.label == label(key); });
   };
   while (is_own(path.back()) && !is_root(path.back())) push_asked(path, before(path.back()), execution_);
   return path;
@@ -599,7 +591,12 @@ VertexId StepSide::before(VertexId v) const {
 
 SearchResult search_steps(const Overlay& overlay, const OverlayEnds& ends, const Execution& execution) {
   const std::size_t n = overlay.vertex_count();
-  const auto longest = std::max(overlay.longest(), static_cast<std::uint32_t>(std::ceil(longest_link(ends))));
+  std::uint32_t longest = overlay.longest();
+  for (const EndLinks* end : {&ends.start, &ends.goal}) {
+    for (const EndLink& link : end->links) {
+      longest = std::max(longest, static_cast<std::uint32_t>(std::ceil(link.length)));
+    }
+  }
   StepSide forward(overlay, longest, execution, {0, n});
   StepSide backward(overlay, longest, execution, {0, n});
   for_chunks(n, std::size_t{1} << 15, execution, [&](Range r) {
@@ -649,8 +646,7 @@ std::vector<TileSummary> tiles_of(const ToldRoute& route, const TileGrid& grid, 
   }
   for (TileSummary& tile : tiles) {
     for (auto& crossing : tile.crossings) sort_once(crossing);
-    std::stable_sort(tile.chains.begin(), tile.chains.end(),
-                     [](const Chain& a, const Chain& b) { return a.from < b.from; });
+    std::ranges::stable_sort(tile.chains, {}, &Chain::from);
   }
   return tiles;
 }

@@ -194,7 +194,7 @@ class StepSide {
   /// The same from v on, but no further than to the first vertex that is not its own.
   RawVector<VertexId> path_from(VertexId v) const;
 
-  /// A label of a key that is not its own, or that another process has found.
+  /// A label of a key that is not its own, or that another process has found, or that the search began with.
   struct Told {
     VertexId key;
     double label;
@@ -216,10 +216,6 @@ class StepSide {
     VertexId vertex;
     std::uint32_t next;  // in the same bucket, or in the list of free entries
   };
-  struct Root {
-    VertexId key;
-    double length;
-  };
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
   bool is_own(VertexId v) const { return v >= own_.first && v < own_.last; }
@@ -240,7 +236,7 @@ class StepSide {
   std::vector<VertexId> bucket_;    // the one that is emptied
   std::vector<VertexId> labelled_;  // in this round, perhaps more than once
   std::vector<Told> told_;          // since it was last asked
-  std::vector<Root> roots_;
+  std::vector<Told> roots_;
   std::uint32_t free_ = none;
   std::uint64_t at_ = 0;    // least label of the bucket that is emptied next
   double least_ = 0.0;      // what exchange tells the other side of it; infinity: nothing is open

@@ -108,12 +108,6 @@ bool agree(const TileGrid& grid, const TileSummary& tile, const TileSummary& bey
                     });
 }
 
-/// One edge and not kept.
-constexpr bool is_dead_end(unsigned bits) {
-  const unsigned open = bits & edges;
-  return open != 0 && (open & (open - 1)) == 0 && (bits & kept) == 0;
-}
-
 /// Calls visit(i) for each of the bytes that has a bit of `mask`; eight bytes are skipped at once where none has.
 template <class Visit>
 void for_each_with(const std::uint8_t* bytes, int count, std::uint8_t mask, const Visit& visit) {
@@ -405,8 +399,8 @@ void TileReduction::peel(TilePlane& plane) {
 }
 
 void TileReduction::follow_dead_end(std::uint8_t* at) const {
-  while (is_dead_end(*at)) {
-    const unsigned direction = first_direction(*at & edges);
+  for (unsigned open = *at & edges; open != 0 && (open & (open - 1)) == 0 && (*at & kept) == 0; open = *at & edges) {
+    const unsigned direction = first_direction(open);
     *at = 0;
     at += offset_[direction];
     *at &= static_cast<std::uint8_t>(~opposite_bit(direction));

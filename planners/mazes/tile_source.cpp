@@ -7,9 +7,6 @@
 namespace warren {
 namespace {
 
-/// At least 16384 walls, at most 512 chunks: so that their counts stay small beside the walls.
-std::size_t grain_of(std::size_t walls) { return std::max<std::size_t>(16384, (walls + 511) / 512); }
-
 constexpr std::size_t band_bytes = std::size_t{64} << 20;  // smaller bands are not worth their count
 constexpr std::uint32_t most_bands_in_order = 16;
 constexpr std::uint32_t most_bands = 64;
@@ -20,7 +17,7 @@ double passes(const WallCounts& counts, const TileGrid& grid, const TileBands& b
   std::vector<std::uint8_t> met(bands.count);
   for (std::size_t chunk = 0; chunk < counts.chunks(); ++chunk) {
     std::fill(met.begin(), met.end(), std::uint8_t{0});
-    for (std::size_t tile = 0; tile < counts.tiles(); ++tile) {
+    for (std::size_t tile = 0; tile < grid.count(); ++tile) {
       if (counts.has(chunk, tile)) met[bands.of(grid, tile)] = 1;
     }
     looks += static_cast<std::size_t>(std::count(met.begin(), met.end(), 1));
@@ -145,7 +142,7 @@ class CellTiles : public TileSource {
 
 WallCounts::WallCounts(const WallSet& walls, const WallFiler& filer, std::size_t tiles, const Execution& execution)
     : walls_(walls.size()),
-      grain_(grain_of(walls.size())),
+      grain_(std::max<std::size_t>(16384, (walls.size() + 511) / 512)),
       tiles_((execution.reserve(2 * (chunks() + 1) * tiles * sizeof(std::uint32_t)), tiles)),
       narrow_(chunks(), tiles),
       wide_(chunks(), tiles) {
@@ -178,7 +175,7 @@ void WallCounts::count(std::span<const Wall> walls, const WallFiler& filer, cons
 
 TileBands choose_bands(const WallCounts& counts, const TileGrid& grid, const Execution& execution) {
   std::size_t bytes = 0;
-  for (std::size_t tile = 0; tile < counts.tiles(); ++tile) {
+  for (std::size_t tile = 0; tile < grid.count(); ++tile) {
     bytes += counts.narrow().of_tile(tile) * sizeof(NarrowWall) + counts.wide().of_tile(tile) * sizeof(DoubleWall);
   }
   if (bytes <= band_bytes) return {};

@@ -156,7 +156,6 @@ class WallCounts {
   /// Throws Stopped.
   WallCounts(const WallSet& walls, const WallFiler& filer, std::size_t tiles, const Execution& execution);
 
-  std::size_t tiles() const { return tiles_; }
   std::size_t chunks() const { return chunk_count(walls_, grain_); }
   /// Its walls.
   Range chunk(std::size_t number) const { return {number * grain_, std::min(walls_, (number + 1) * grain_)}; }
@@ -173,7 +172,7 @@ class WallCounts {
   void count(std::span<const Wall> walls, const WallFiler& filer, const Execution& execution);
 
   std::size_t walls_;
-  std::size_t grain_;
+  std::size_t grain_;  // at most 512 chunks, so that their counts stay small beside the walls
   std::size_t tiles_;
   ChunkCounts narrow_;
   ChunkCounts wide_;

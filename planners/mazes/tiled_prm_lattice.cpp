@@ -59,8 +59,7 @@ constexpr std::size_t legs_a_chunk = 1024;
 
 /// The first chain of so many steps between keys from < to of a tile; there must be one.
 const Chain& chain_between(const TileSummary& tile, std::uint32_t from, std::uint32_t to, std::uint32_t steps) {
-  const auto first = std::lower_bound(tile.chains.begin(), tile.chains.end(), from,
-                                      [](const Chain& chain, std::uint32_t key) { return chain.from < key; });
+  const auto first = std::ranges::lower_bound(tile.chains, from, {}, &Chain::from);
   const auto found = std::find_if(first, tile.chains.end(),
                                   [&](const Chain& chain) { return chain.to == to && chain.length == steps; });
   assert(found != tile.chains.end() && found->from == from);
@@ -68,16 +67,6 @@ const Chain& chain_between(const TileSummary& tile, std::uint32_t from, std::uin
 }
 
 constexpr Vec2 directions[4] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
-
-/// Writes the vertices after v along a chain of v's tile, up to its other end.
-void walk_chain(const TileSummary& tile, const Chain& chain, bool forward, Vec2 at, Vec2* out) {
-  const std::uint8_t* steps = tile.steps.data() + chain.first_step;
-  for (std::uint32_t i = 0; i < chain.length; ++i) {
-    const unsigned direction = forward ? steps[i] : steps[chain.length - 1 - i] ^ 2U;
-    at = at + directions[direction];
-    *out++ = at;
-  }
-}
 
 /// Some legs in a row.
 struct PathPiece {
@@ -151,7 +140,13 @@ class PathExpansion {
         const TileChain taken = chain_of(leg);
         const TileSummary& tile = tiles[taken.tile];
         const Chain& chain = chain_between(tile, taken.from, taken.to, taken.length);
-        walk_chain(tile, chain, path_[leg] < path_[leg + 1], place_of(path_[leg], tiles), at);
+        const bool forward = path_[leg] < path_[leg + 1];
+        const std::uint8_t* const steps = tile.steps.data() + chain.first_step;
+        Vec2 place = place_of(path_[leg], tiles);
+        for (std::uint32_t i = 0; i < chain.length; ++i) {
+          place = place + directions[forward ? steps[i] : steps[chain.length - 1 - i] ^ 2U];
+          at[i] = place;
+        }
       }
     });
   }
@@ -256,11 +251,8 @@ class TiledPlan {
     solution_.counters.samples = std::uint64_t{grid_.rows} * grid_.cols;
     if (search_is_elsewhere()) return search_elsewhere();
     build_overlay();
-    if (joined()) {
-      search();
-    } else {
-      measure_gap();
-    }
+    if (joined()) return search();
+    measure_gap();
   }
   Solution<Vec2>& solution() { return solution_; }
 
@@ -368,10 +360,7 @@ class TiledPlan {
           {chains[i].from, chains[i].to, static_cast<std::uint32_t>(tile.steps.size()), chains[i].length});
       tile.steps.insert(tile.steps.end(), steps[i].begin(), steps[i].end());
     }
-    for (const std::size_t t : piece.tiles) {
-      std::stable_sort(tiles_[t].chains.begin(), tiles_[t].chains.end(),
-                       [](const Chain& a, const Chain& b) { return a.from < b.from; });
-    }
+    for (const std::size_t t : piece.tiles) std::ranges::stable_sort(tiles_[t].chains, {}, &Chain::from);
   }
 
   void forget(TileSummary& tile) const {
@@ -417,9 +406,7 @@ class TiledPlan {
     const StageTimer timer(execution_, "reduce", solution_.seconds.reduce, overlay_->vertex_count());
     const Components parts = components(*overlay_, {0, overlay_->vertex_count()}, execution_);
     solution_.roadmap.components += parts.count;
-    const bool joined = parts.connected(overlay_->start(), overlay_->goal());
-    if (!joined) solution_.outcome = Outcome::not_connected;
-    return joined;
+    return parts.connected(overlay_->start(), overlay_->goal());
   }
 
   void search() {
@@ -455,7 +442,6 @@ class TiledPlan {
       }
     }
     if (path) return expand_path(*path);
-    solution_.outcome = Outcome::not_connected;
     measure_gap();
   }
 
@@ -467,6 +453,7 @@ class TiledPlan {
 
   /// That there is no way is known by now: a budget that does not suffice for the gap leaves it unknown.
   void measure_gap() {
+    solution_.outcome = Outcome::not_connected;
     try {
       solution_.separation = gap();
     } catch (const Stopped& stopped) {

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <set>
 #include <span>
 #include <utility>
 #include <vector>
@@ -100,22 +101,19 @@ class Ask {
         scratch_(scratch),
         keep_(keep) {}
 
-  Solution<State> run() {
+  void run() {
     if (const auto blocked = blocked_end(world_, ends_[0], ends_[1])) {
       solution_.outcome = *blocked;
-      return std::move(solution_);
+      return;
     }
-    try {
-      execution_.check();
-      attach_ends();
-      search();
-      if (solution_.outcome == Outcome::not_connected && tells_separation()) tell_separation();
-      if (keep_ != nullptr) *keep_ = {all_states(), free_graph(), tree_};
-    } catch (const Stopped& stopped) {
-      mark_stopped(solution_, stopped);
-    }
-    return std::move(solution_);
+    execution_.check();
+    attach_ends();
+    search();
+    const bool tells_separation = scratch_.tells_separation || roadmap_.is_lazy;  // of a lazy one learnt on the way
+    if (solution_.outcome == Outcome::not_connected && tells_separation) tell_separation();
+    if (keep_ != nullptr) *keep_ = {all_states(), free_graph(), tree_};
   }
+  Solution<State>& solution() { return solution_; }
 
  private:
   static constexpr bool one_way = W::one_way;
@@ -152,7 +150,11 @@ class Ask {
       if (known == EdgeState::blocked || !visit.wants(w, 0.0)) return;
       const double length = ask_.distance(v, w);
       if (!visit.wants(w, length)) return;
-      if (known == EdgeState::unchecked && !asked(v, w, end)) return;
+      if (known == EdgeState::unchecked) {
+        const bool free = one_way ? is_free(v, w) : is_free(std::min(v, w), std::max(v, w));
+        learn_edge<W>(roadmap_.known, roadmap_.candidates, v, end, free);
+        if (!free) return;
+      }
       ++free_edges_;
       visit(w, ask_.world_.motion_cost ? ask_.cost(v, w) : length);
     }
@@ -160,22 +162,16 @@ class Ask {
     void visit_end(VertexId v, VertexId w, const AnyVisit& visit) {
       const double length = ask_.distance(v, w);
       if (one_way && roadmap_.is_lazy) {
-        if (!visit.wants(w, length)) return;
-        if (++counters_.edges_checked % checks_per_poll == 0) ask_.execution_.check();
-        if (!ask_.world_.is_free_motion(ask_.state(v), ask_.state(w), query_)) return;
-        ++counters_.edges_free;
+        if (!visit.wants(w, length) || !is_free(v, w)) return;
         ++free_edges_;
       }
       visit(w, ask_.world_.motion_cost ? ask_.cost(v, w) : length);
     }
-    /// Asks the world, and remembers.
-    bool asked(VertexId v, VertexId w, std::size_t end) {
+    /// Asks the world.
+    bool is_free(VertexId from, VertexId to) {
       if (++counters_.edges_checked % checks_per_poll == 0) ask_.execution_.check();
-      const VertexId from = one_way ? v : std::min(v, w);
-      const VertexId to = one_way ? w : std::max(v, w);
       const bool free = ask_.world_.is_free_motion(ask_.state(from), ask_.state(to), query_);
       counters_.edges_free += free ? 1 : 0;
-      learn_edge<W>(roadmap_.known, roadmap_.candidates, v, end, free);
       return free;
     }
 
@@ -195,8 +191,6 @@ class Ask {
   VertexId start_vertex() const { return static_cast<VertexId>(roadmap_.states.size()); }
   VertexId goal_vertex() const { return start_vertex() + 1; }
   std::size_t vertex_count() const { return roadmap_.states.size() + 2; }
-  /// Of a lazy roadmap it is learnt on the way.
-  bool tells_separation() const { return scratch_.tells_separation || roadmap_.is_lazy; }
   ImplicitSearch asked(const VertexDistance& estimate) const {
     return {estimate, options_.search == SearchKind::astar, options_.queue, vertex_count(), execution_};
   }
@@ -207,9 +201,9 @@ class Ask {
   void attach_ends() {
     const StageTimer timer(execution_, "connect", solution_.seconds.connect);
     if constexpr (one_way) {
-      attach_one_way(0, Heading::out);
-      attach_one_way(1, Heading::in);
       auto query = world_.make_query();
+      attach_one_way(0, Heading::out, query);
+      attach_one_way(1, Heading::in, query);
       if (world_.distance(ends_[0], ends_[1]) <= direct_reach(roadmap_.rule) &&
           may_be_free(ends_[0], ends_[1], query)) {
         end_edges_.push_back({start_vertex(), goal_vertex()});
@@ -222,8 +216,7 @@ class Ask {
     const std::uint64_t known = one_way && roadmap_.is_lazy ? 0 : end_edges_.size();
     solution_.roadmap = {vertex_count(), roadmap_.free_edges + known, 0};
   }
-  void attach_one_way(std::size_t end, Heading heading) {
-    auto query = world_.make_query();
+  void attach_one_way(std::size_t end, Heading heading, typename W::Query& query) {
     const State& here = ends_[end];
     const auto vertex = static_cast<VertexId>(start_vertex() + end);
     ++solution_.counters.neighbour_queries;
@@ -234,7 +227,6 @@ class Ask {
       if (!(out ? may_be_free(here, there, query) : may_be_free(there, here, query))) continue;
       end_edges_.push_back(out ? Edge{vertex, c.id} : Edge{c.id, vertex});
     }
-    solution_.counters.refused += refused_motions(query);
   }
   /// Is the motion free? A lazy roadmap leaves that to the search.
   bool may_be_free(const State& from, const State& to, typename W::Query& query) {
@@ -268,18 +260,16 @@ class Ask {
   }
   SearchResult search_plainly(VertexId from, VertexId to, SearchState& state) {
     AskedNeighbours seen(*this);
-    const auto estimate = this->estimate();
-    const SearchResult found = search_implicit(AnyNeighbours(seen), from, to, asked(VertexDistance(estimate)), state);
+    const SearchResult found = search_implicit(seen, from, to, asked(estimate()), state);
     if (found.status == SearchStatus::stopped) execution_.check();
     count(seen);
     return found;
   }
   SearchResult search_both_ends() {
     std::array<AskedNeighbours, 2> seen{AskedNeighbours(*this), AskedNeighbours(*this)};
-    const auto estimate = this->estimate();
-    const SearchResult found = search_implicit_from_both_ends(
-        {AnyNeighbours(seen[0]), AnyNeighbours(seen[1])}, {start_vertex(), goal_vertex()},
-        asked(VertexDistance(estimate)), {&scratch_.states[0], &scratch_.states[1]});
+    const SearchResult found =
+        search_implicit_from_both_ends({seen[0], seen[1]}, {start_vertex(), goal_vertex()}, asked(estimate()),
+                                       {&scratch_.states[0], &scratch_.states[1]});
     for (const AskedNeighbours& side : seen) count(side);
     if (keep_ != nullptr) tree_ = search_trees(scratch_.states[0], scratch_.states[1]);
     return found;
@@ -309,18 +299,14 @@ class Ask {
   /// goal among them.
   std::optional<bool> known_to_be_joined() {
     if (roadmap_.is_lazy || one_way) return std::nullopt;
-    std::array<std::vector<VertexId>, 2> joined_to;
+    std::array<std::set<VertexId>, 2> joined_to;  // components
     bool direct = false;
     for (const Edge& e : end_edges_) {
       if (e.from == start_vertex()) {
         direct = true;
       } else {
-        joined_to[e.to - start_vertex()].push_back(roadmap_.component_labels.label[e.from]);
+        joined_to[e.to - start_vertex()].insert(roadmap_.component_labels.label[e.from]);
       }
-    }
-    for (auto& labels : joined_to) {
-      std::sort(labels.begin(), labels.end());
-      labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
     }
     std::vector<VertexId> shared;
     std::set_intersection(joined_to[0].begin(), joined_to[0].end(), joined_to[1].begin(), joined_to[1].end(),
@@ -399,7 +385,7 @@ Solution<typename W::State> ask_roadmap(const AskedRoadmap<W>& roadmap, const ty
                                         const typename W::State& goal, const RoadmapOptions& options,
                                         const Execution& execution, AskScratch& scratch,
                                         PlannedRoadmap<typename W::State>* keep = nullptr) {
-  return detail::Ask<W>(roadmap, start, goal, options, execution, scratch, keep).run();
+  return run_plan(detail::Ask<W>(roadmap, start, goal, options, execution, scratch, keep));
 }
 
 }  // namespace warren

@@ -35,18 +35,12 @@ using KnownMotions = std::function<std::optional<bool>(const State& from, const 
 
 namespace detail {
 
-/// The edge end of v that leads to w.
-inline std::size_t end_of_edge(const Graph& graph, VertexId v, VertexId w) {
-  const auto row = graph.neighbours(v);
-  return graph.first_end(v) + static_cast<std::size_t>(std::lower_bound(row.begin(), row.end(), w) - row.begin());
-}
-
 /// What the world says of the edge from v with this end; where it leads both ways its other end says the same.
 template <World W>
 void learn_edge(const SharedEdgeStates& states, const Graph& graph, VertexId v, std::size_t end, bool free) {
   const EdgeState answer = free ? EdgeState::free : EdgeState::blocked;
   states.learn(end, answer);
-  if (!W::one_way) states.learn(end_of_edge(graph, graph.targets()[end], v), answer);
+  if (!W::one_way) states.learn(graph.end_to(graph.targets()[end], v), answer);
 }
 
 /// Asks about the edges of one row that are not known.

@@ -301,10 +301,6 @@ RawVector<Edge> attach(const W& world, std::span<const typename W::State> milest
         push_asked(edges, {near[tried].id, vertex}, execution);
     }
   };
-  const auto look = [&] {
-    if (rule.neighbours > 0) return index.nearest(at, rule.neighbours, no_vertex, near);
-    index.within(at, rule.radius, no_vertex, near);
-  };
   if (rule.attach) {
     double radius = rule.attach->radius.value_or(rule.radius);
     if (!(radius > 0.0)) {  // as far as the k nearest
@@ -318,7 +314,11 @@ RawVector<Edge> attach(const W& world, std::span<const typename W::State> milest
       try_rest(false);
     }
   } else {
-    look();
+    if (rule.neighbours > 0) {
+      index.nearest(at, rule.neighbours, no_vertex, near);
+    } else {
+      index.within(at, rule.radius, no_vertex, near);
+    }
     try_rest(false);
     if (edges.empty()) {
       index.nearest(at, farthest, no_vertex, near);

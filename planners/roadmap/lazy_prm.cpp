@@ -9,7 +9,6 @@
 namespace warren {
 namespace {
 
-constexpr std::size_t cells_a_look = std::size_t{1} << 16;
 constexpr std::uint8_t is_kept = 0xF0;  // more than one way out
 
 /// Closes a cell of one side after the other, while the next one has no more.
@@ -39,7 +38,7 @@ DeadEnds::DeadEnds(CellSides cells, std::span<const std::size_t> kept, const Exe
   std::copy(cells_.open.begin(), cells_.open.end(), left.begin());
   for (const std::size_t cell : kept) cells_.open[cell] |= is_kept;
   for (std::size_t cell = 0; cell < left.size(); ++cell) {
-    if (cell % cells_a_look == 0) execution.check();
+    execution.poll(cell);
     peel_from(cell, cells_, left);
   }
   for (const std::size_t cell : kept) cells_.open[cell] &= CellSides::all;
@@ -50,8 +49,7 @@ DeadEndSeals::DeadEndSeals(const DeadEnds& dead_ends, const Neighbours<2>& miles
     : dead_ends_(&dead_ends), milestones_(&milestones), radius_(radius) {
   const std::size_t cells = dead_ends.cells().open.size();
   execution.reserve(cells * sizeof(VertexId));
-  waits_for_.resize(cells);
-  std::fill(waits_for_.begin(), waits_for_.end(), nobody);
+  waits_for_.assign(cells, nobody);
 }
 
 /// A cell whose way out leads into a sealed one is sealed, too; motions pass over few cells at once, so that the search

@@ -130,7 +130,6 @@ class LazyGraph {
   }
   /// Keeps the free edges that were used, for pictures.
   void record(std::vector<Edge>* edges) { recorded_ = edges; }
-  std::uint64_t free_edges() const { return free_edges_; }
   /// Queries and checks so far.
   Counters counters() const {
     Counters all = counters_;
@@ -158,8 +157,8 @@ class LazyGraph {
   void visit_milestones(VertexId v, const AnyVisit& visit) {
     ++counters_.neighbour_queries;
     clock_.begin();
-    const auto try_edge = [&](VertexId w, double at_least) {
-      if (!visit.wants(w, at_least) || w == v) return;  // most are settled already
+    const auto try_edge = [&](VertexId w) {
+      if (w == v) return;
       const double length = world_.distance(states_[v], states_[w]);
       if (!visit.wants(w, length)) return;
       lengths_[wanted_.edges().size()] = length;
@@ -167,9 +166,13 @@ class LazyGraph {
       if (wanted_.full()) visit_free(visit);
     };
     if (rule_.neighbours == 0) {
-      index_.for_each_relaxable(index_.point(v), radius_, visit.through(), visit.labels(), try_edge);
+      index_.for_each_within(index_.point(v), radius_, [&](VertexId w, double distance) {
+        if (visit.wants(w, distance)) try_edge(w);  // most are settled already
+      });
     } else {
-      for (const VertexId w : candidates_.neighbours(v)) try_edge(w, 0.0);
+      for (const VertexId w : candidates_.neighbours(v)) {
+        if (visit.wants(w, 0.0)) try_edge(w);
+      }
     }
     visit_free(visit);
     clock_.lap(StagePart::queries);
@@ -188,7 +191,6 @@ class LazyGraph {
     clock_.lap(StagePart::checks);
     counters_.edges_checked += count;
     counters_.edges_free += static_cast<std::uint64_t>(std::popcount(free));
-    free_edges_ += static_cast<std::uint64_t>(std::popcount(free));
     for (; free != 0; free &= free - 1) {
       const auto i = static_cast<std::size_t>(std::countr_zero(free));
       const auto [v, w] = wanted_.edges()[i];
@@ -215,18 +217,9 @@ class LazyGraph {
   std::optional<DeadEndSeals> seals_;
   std::size_t unpolled_ = 0;
   std::vector<Edge>* recorded_ = nullptr;
-  std::uint64_t free_edges_ = 0;
 };
 
 namespace detail {
-
-/// What one end of a search has for itself.
-template <World W>
-struct alignas(bytes_apart) LazyEnd {
-  LazyGraph<W> graph;
-  SearchState state;
-  std::vector<Edge> edges;
-};
 
 template <World W>
 class LazyPlan final : public Rounds<W> {
@@ -240,7 +233,7 @@ class LazyPlan final : public Rounds<W> {
   bool round(std::uint64_t samples) override {
     this->draw(samples);
     index_ = this->index_milestones();
-    rule_ = this->rule_for(samples);
+    rule_ = connection_rule_for(world_, options_, samples);
     join();
     return this->take(search_expanding());
   }
@@ -289,18 +282,22 @@ class LazyPlan final : public Rounds<W> {
     return std::move(found.path);
   }
   RawVector<VertexId> search_from_both_ends() {
+    struct alignas(bytes_apart) End {  // what one end has for itself
+      LazyGraph<W> graph;
+      SearchState state;
+      std::vector<Edge> edges;
+    };
     const DeadEnds dead_ends = find_dead_ends();
-    std::array<LazyEnd<W>, 2> ends{LazyEnd<W>{lazy_graph(), {}, {}}, LazyEnd<W>{lazy_graph(), {}, {}}};
-    for (LazyEnd<W>& end : ends) {
+    std::array<End, 2> ends{End{lazy_graph(), {}, {}}, End{lazy_graph(), {}, {}}};
+    for (End& end : ends) {
       if (!dead_ends.empty()) end.graph.leave_out(dead_ends);
       if (keep_ != nullptr) end.graph.record(&end.edges);
     }
-    const auto estimate = this->estimate();
-    const SearchResult found = search_implicit_from_both_ends(
-        {AnyNeighbours(ends[0].graph), AnyNeighbours(ends[1].graph)}, {start_vertex(), goal_vertex()},
-        asked(VertexDistance(estimate)), {&ends[0].state, &ends[1].state});
+    const SearchResult found =
+        search_implicit_from_both_ends({ends[0].graph, ends[1].graph}, {start_vertex(), goal_vertex()},
+                                       this->asked(this->estimate()), {&ends[0].state, &ends[1].state});
     Rounds<W>::count(found);
-    for (const LazyEnd<W>& end : ends) {
+    for (const End& end : ends) {
       count(end.graph);
       free_edges_.insert(free_edges_.end(), end.edges.begin(), end.edges.end());
     }
@@ -328,8 +325,7 @@ class LazyPlan final : public Rounds<W> {
   SearchResult expand_from(VertexId from, VertexId to, SearchState& state, std::vector<Edge>* record) {
     LazyGraph<W> graph = lazy_graph();
     graph.record(record);
-    const auto estimate = this->estimate();
-    SearchResult found = search_implicit(AnyNeighbours(graph), from, to, asked(VertexDistance(estimate)), state);
+    SearchResult found = search_implicit(graph, from, to, this->asked(this->estimate()), state);
     if (found.status == SearchStatus::stopped) execution_.check();
     Rounds<W>::count(found);
     count(graph);
@@ -338,10 +334,7 @@ class LazyPlan final : public Rounds<W> {
   LazyGraph<W> lazy_graph() const { return {world_, states_, index_, rule_, candidates_, end_edges_, execution_}; }
   void count(const LazyGraph<W>& graph) {
     solution_.counters += graph.counters();
-    solution_.roadmap.edges += graph.free_edges();
-  }
-  ImplicitSearch asked(const VertexDistance& estimate) const {
-    return {estimate, options_.search == SearchKind::astar, options_.queue, states_.size(), execution_};
+    solution_.roadmap.edges += graph.counters().edges_free;
   }
   ConnectionRule rule_;
   StateIndex<W> index_;
@@ -358,7 +351,7 @@ template <class State>
 Solution<State> lazy_prm(const AnyWorld<State>& world, const State& start, const State& goal,
                          const RoadmapOptions& options, const Execution& execution,
                          PlannedRoadmap<State>* keep = nullptr) {
-  return detail::LazyPlan<AnyWorld<State>>(world, start, goal, options, execution, keep).run();
+  return run_plan(detail::LazyPlan<AnyWorld<State>>(world, start, goal, options, execution, keep));
 }
 
 }  // namespace warren

@@ -48,13 +48,12 @@ class OneWayPlan final : public Rounds<W> {
       this->tell_separation(reached_and_reaching(graph, start_vertex(), goal_vertex(), execution_));
     }
     if (keep_ == nullptr) return;
-    *keep_ = {RawVector<State>(), free_part(candidates_, known_, execution_), std::move(tree_)};
-    keep_->states = std::move(states_);
+    *keep_ = {std::move(states_), free_part(candidates_, known_, execution_), std::move(tree_)};
   }
   void find_candidates(std::uint64_t samples) {
     const StateIndex<W> index = this->index_milestones();
     const StageTimer timer(execution_, "queries", solution_.seconds.connect, this->milestones().size());
-    const ConnectionRule rule = this->rule_for(samples);
+    const ConnectionRule rule = connection_rule_for(world_, options_, samples);
     const std::size_t begins = states_.size() - 1;  // nothing leads on from the goal
     candidates_ = Graph();
     EdgeParts edges = one_way_edges(world_, states_, begins, index, rule, execution_);
@@ -83,7 +82,7 @@ class OneWayPlan final : public Rounds<W> {
     const bool blind = !has_queue(options_.search);
     if (blind && lazy_) check_all();
     StageTimer timer(execution_, "expansion", solution_.seconds.search);
-    const SearchResult found = blind ? search_plainly() : search_best();
+    const SearchResult found = search_edges(blind);
     solution_.roadmap.edges = free_count();
     solution_.counters.edges_free += solution_.roadmap.edges;  // of a search that was stopped, too
     if (found.status == SearchStatus::stopped) execution_.check();
@@ -91,7 +90,8 @@ class OneWayPlan final : public Rounds<W> {
     this->count(found);
     return this->take(found.path);
   }
-  SearchResult search_best() {
+  /// Blindly: breadth or depth first, over the free edges.
+  SearchResult search_edges(bool blind) {
     SearchState state;
     auto query = world_.make_query();
     Counters counters;
@@ -114,20 +114,12 @@ class OneWayPlan final : public Rounds<W> {
         visit(to, world_.motion_cost ? world_.cost(states_[v], states_[to]) : length);
       }
     };
-    const auto estimate = [&](VertexId v, VertexId to) { return world_.distance(states_[v], states_[to]); };
-    const ImplicitSearch asked{VertexDistance(estimate), options_.search == SearchKind::astar, options_.queue,
-                               states_.size(), execution_};
-    const SearchResult found = search_implicit(AnyNeighbours(neighbours), start_vertex(), goal_vertex(), asked, state);
+    const SearchResult found =
+        blind ? search_blindly(options_.search, free_part(candidates_, known_, execution_), start_vertex(),
+                               goal_vertex(), state, execution_)
+              : search_implicit(neighbours, start_vertex(), goal_vertex(), this->asked(this->estimate()), state);
     counters.refused = refused_motions(query);
     solution_.counters += counters;
-    if (keep_ != nullptr) tree_ = search_tree(state);
-    return found;
-  }
-  /// Breadth or depth first, over the free edges.
-  SearchResult search_plainly() {
-    SearchState state;
-    const Graph graph = free_part(candidates_, known_, execution_);
-    const SearchResult found = search_blindly(options_.search, graph, start_vertex(), goal_vertex(), state, execution_);
     if (keep_ != nullptr) tree_ = search_tree(state);
     return found;
   }
@@ -152,7 +144,7 @@ template <class State, bool one_way>
 Solution<State> one_way_prm(const AnyWorld<State, one_way>& world, const State& start, const State& goal,
                             const RoadmapOptions& options, bool lazy, const Execution& execution,
                             PlannedRoadmap<State>* keep = nullptr) {
-  return detail::OneWayPlan<AnyWorld<State, one_way>>(world, start, goal, options, lazy, execution, keep).run();
+  return run_plan(detail::OneWayPlan<AnyWorld<State, one_way>>(world, start, goal, options, lazy, execution, keep));
 }
 
 }  // namespace warren

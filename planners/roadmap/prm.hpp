@@ -55,26 +55,22 @@ class Rounds {
          const Execution& execution, PlannedRoadmap<State>* keep)
       : world_(world), start_(start), goal_(goal), options_(options), execution_(execution), keep_(keep) {}
 
-  /// Runs rounds of growing size until one gives the final answer, the samples end, or the deadline comes.
-  Solution<State> run() {
+  /// Runs rounds of growing size until one gives the final answer or the samples end. Throws Stopped.
+  void run() {
     options_.validate();
     if (const auto blocked = blocked_end(world_, start_, goal_)) {
       solution_.outcome = *blocked;
-      return std::move(solution_);
+      return;
     }
-    try {
-      execution_.check();
-      const std::uint64_t usual = usual_samples(world_, options_, execution_);
-      for (std::uint64_t samples = first_samples(world_, options_, execution_); samples != 0;
-           samples = next_samples(options_, usual, samples)) {
-        if (round(samples)) break;
-      }
-      finish();
-    } catch (const Stopped& stopped) {
-      mark_stopped(solution_, stopped);
+    execution_.check();
+    const std::uint64_t usual = usual_samples(world_, options_, execution_);
+    for (std::uint64_t samples = first_samples(world_, options_, execution_); samples != 0;
+         samples = next_samples(options_, usual, samples)) {
+      if (round(samples)) break;
     }
-    return std::move(solution_);
+    finish();
   }
+  Solution<State>& solution() { return solution_; }
 
  protected:
   ~Rounds() = default;
@@ -104,10 +100,13 @@ class Rounds {
     const StageTimer timer(execution_, "checks", solution_.seconds.connect);
     return attach_start_and_goal(world_, milestones(), index, rule, start_, goal_, solution_.counters, execution_);
   }
-  ConnectionRule rule_for(std::uint64_t samples) const { return connection_rule_for(world_, options_, samples); }
   auto estimate() const {
     return
         [this](VertexId v, VertexId to) { return estimated_way(world_, options_.heuristic, states_[v], states_[to]); };
+  }
+
+  ImplicitSearch asked(const VertexDistance& estimate) const {
+    return {estimate, options_.search == SearchKind::astar, options_.queue, states_.size(), execution_};
   }
 
   std::span<const State> milestones() const { return {states_.data(), states_.size() - 2}; }
@@ -185,7 +184,7 @@ class PrmPlan final : public Rounds<W> {
   }
   EdgeParts connect(std::uint64_t samples) {
     const StateIndex<W> index = this->index_milestones();
-    const ConnectionRule rule = this->rule_for(samples);
+    const ConnectionRule rule = connection_rule_for(world_, this->options_, samples);
     EdgeParts edges;
     {
       const StageTimer timer(execution_, "queries", solution_.seconds.connect, this->milestones().size());
@@ -245,7 +244,7 @@ class PrmPlan final : public Rounds<W> {
 template <class State>
 Solution<State> prm(const AnyWorld<State>& world, const State& start, const State& goal, const RoadmapOptions& options,
                     const Execution& execution, PlannedRoadmap<State>* keep = nullptr) {
-  return detail::PrmPlan<AnyWorld<State>>(world, start, goal, options, execution, keep).run();
+  return run_plan(detail::PrmPlan<AnyWorld<State>>(world, start, goal, options, execution, keep));
 }
 
 }  // namespace warren

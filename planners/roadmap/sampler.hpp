@@ -132,13 +132,11 @@ std::optional<typename W::State> bridge_state(const W& world, std::uint64_t seed
 }  // namespace detail
 
 /// The index-th point of the Halton sequence in bases 2, 3, 5, …, shifted by a random vector of the seed
-/// (Cranley-Patterson), so that seeds differ. The coordinates that the world's states are made of, the others 0; a
-/// world that has no say about it is made of all.
+/// (Cranley-Patterson), so that seeds differ. The coordinates that the world's states are made of, the others 0.
 template <World W>
 std::array<double, W::dimension> halton_point(const W& world, std::uint64_t seed, std::uint64_t index) {
   static_assert(W::dimension <= detail::halton_bases.size());
-  std::size_t axes = W::dimension;
-  if constexpr (requires { world.unit_dimension(); }) axes = world.unit_dimension();
+  const std::size_t axes = world.unit_dimension();
   const auto coordinate = [&]<std::size_t axis>(std::integral_constant<std::size_t, axis>) {
     if (axis >= axes) return 0.0;
     const double value = detail::radical_inverse<detail::halton_bases[axis]>(index + 1) + uniform(seed, 0, axis);

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <queue>
 #include <span>
 #include <utility>
@@ -38,29 +39,30 @@ class Redriving {
   using State = typename Driver::State;
   using Way = typename Driver::Way;
 
-  Redriving(const Driver& driver, Path<State> path, const RedriveOptions& options, const Execution& execution)
+  /// Adds the work to counters.
+  Redriving(const Driver& driver, Path<State> path, const RedriveOptions& options, const Execution& execution,
+            Counters& counters)
       : driver_(driver),
         path_(std::move(path)),
         options_(options),
         execution_(execution),
-        query_(driver.make_query()) {}
+        query_(driver.make_query()),
+        counters_(counters) {}
 
   Path<State> run() {
     constexpr std::size_t patience = 10;
     constexpr double worth = 1e-3;
     const std::size_t stretches = (path_.size() + stretch_states - 1) / stretch_states;
+    const auto distance = [this](const State& a, const State& b) { return driver_.distance(a, b); };
     std::size_t idle = 0;
     for (std::size_t round = 0; round < options_.rounds * stretches && idle < patience * stretches; ++round) {
-      if (!has_surcharge()) break;
+      // Where the path costs no more than its length, shortcuts make it cheap.
+      if (!(driver_.price(path_) > path_length(path_, distance) * (1.0 + 1e-9))) break;
       const double gain = redrive_stretch(round);
       idle = gain > worth * driver_.price(path_) ? 0 : idle + 1;
     }
+    counters_.refused += refused_motions(query_);
     return std::move(path_);
-  }
-  Counters counters() const {
-    Counters all = counters_;
-    all.refused = refused_motions(query_);
-    return all;
   }
 
  private:
@@ -79,25 +81,13 @@ class Redriving {
   /// A way that leads to a place.
   struct Arrival {
     double price;        // since the stretch's begin
-    double at_least;     // up to its end
     std::size_t before;  // the arrival whence it comes
     std::size_t place;
     Way way;
   };
-  struct IsLater {
-    const std::vector<Arrival>* arrivals;
-    bool operator()(std::size_t a, std::size_t b) const {
-      return std::pair((*arrivals)[a].at_least, a) > std::pair((*arrivals)[b].at_least, b);
-    }
-  };
-  using Queue = std::priority_queue<std::size_t, std::vector<std::size_t>, IsLater>;
+  using Open = std::pair<double, std::size_t>;  // the least price of the stretch by an arrival; which one
+  using Queue = std::priority_queue<Open, std::vector<Open>, std::greater<>>;
   static std::size_t slot(int gear) { return gear > 0 ? 1 : 0; }
-
-  /// Does the path cost more than its length? Where it does not, shortcuts make it cheap.
-  bool has_surcharge() const {
-    const auto distance = [this](const State& a, const State& b) { return driver_.distance(a, b); };
-    return driver_.price(path_) > path_length(path_, distance) * (1.0 + 1e-9);
-  }
 
   /// What the path gets cheaper by.
   double redrive_stretch(std::size_t round) {
@@ -150,11 +140,11 @@ class Redriving {
     most_ = most;
     arrivals_.clear();
     settled_.assign(places_.size(), {none, none});
-    Queue open(IsLater{&arrivals_});
+    Queue open;
     expand(0, none, open);
     while (!open.empty()) {
       execution_.check();
-      const std::size_t next = open.top();
+      const std::size_t next = open.top().second;
       open.pop();
       const Arrival arrival = arrivals_[next];
       if (is_settled(arrival.place, arrival.way.last_gear)) continue;
@@ -188,8 +178,8 @@ class Redriving {
                              (is_end ? change(way.last_gear, gear_after_) : 0.0);
         const double at_least = there + places_[to].to_goal;
         if (at_least >= most_ || is_settled(to, way.last_gear)) continue;
-        arrivals_.push_back({there, at_least, arrived, to, way});
-        open.push(arrivals_.size() - 1);
+        open.emplace(at_least, arrivals_.size());
+        arrivals_.push_back({there, arrived, to, way});
       }
     }
   }
@@ -204,7 +194,7 @@ class Redriving {
   const RedriveOptions& options_;
   const Execution& execution_;
   typename Driver::Query query_;
-  Counters counters_;
+  Counters& counters_;
   // Of the stretch.
   int gear_before_ = 0;  // 0: none
   int gear_after_ = 0;
@@ -223,10 +213,10 @@ Path<typename Driver::State> redriven_path(const Driver& driver, Path<typename D
                                            const RedriveOptions& options, const Execution& execution,
                                            Counters& counters) {
   if (path.size() < 2) return path;
-  detail::Redriving<Driver> redriving(driver, std::move(path), options, execution);
-  Path<typename Driver::State> cheaper = redriving.run();
-  counters += redriving.counters();
-  return cheaper;
+  Counters done;
+  path = detail::Redriving<Driver>(driver, std::move(path), options, execution, done).run();
+  counters += done;
+  return path;
 }
 
 }  // namespace warren

@@ -50,42 +50,32 @@ class Shortener {
  public:
   using State = typename W::State;
 
-  Shortener(const W& world, Path<State> path, const Length& length, std::uint64_t seed, const Execution& execution)
+  /// Adds the work to counters.
+  Shortener(const W& world, Path<State> path, const Length& length, std::uint64_t seed, const Execution& execution,
+            Counters& counters)
       : world_(world),
         path_(std::move(path)),
         drifts_(path_.size(), first_drift),
         length_(length),
         seed_(seed),
-        execution_(execution) {}
+        execution_(execution),
+        counters_(counters) {}
 
   /// The rounds of shortcut_path().
   Path<State> shortened(std::uint32_t rounds) {
-    constexpr int patience = 12;
-    constexpr double worth = 1e-4;
-    int idle = 0;
-    double best = whole();
-    for (std::uint32_t round = 0; round < rounds && idle < patience && path_.size() > 2; ++round) {
-      execution_.check();
-      unsure_ = noise * best;
-      round % 2 == 0 ? cut_corners(round, candidates) : pull(round);
-      const double now = whole();
-      idle = best - now > worth * best ? 0 : idle + 1;
-      best = std::min(best, now);
-    }
+    const ImproveOptions until{.worth = 1e-4, .patience = 12};
+    repeat(rounds, until, whole(),
+           [&](std::uint32_t round) { round % 2 == 0 ? cut_corners(round, candidates) : pull(round); });
     return std::move(path_);
   }
   /// Those of improve_path().
   Path<State> improved(const ImproveOptions& options) {
     constexpr std::uint32_t rounds = 400;
     constexpr std::uint64_t drifts = has_joints ? 1 : 4;
-    constexpr double ahead = 2.0;  // so many times what it took off is what a round promises
-    double best = whole();
-    unsure_ = noise * best;
+    const double begun = whole();
+    unsure_ = noise * begun;
     skip();
-    std::uint32_t idle = 0;
-    for (std::uint32_t round = 0; round < rounds && idle < options.patience && path_.size() > 2; ++round) {
-      execution_.check();
-      unsure_ = noise * best;
+    repeat(rounds, options, begun, [&](std::uint32_t round) {
       if constexpr (has_joints) straighten(round);
       cut_corners(round, has_joints ? 2 * path_.size() : 16);
       move_states([&](std::size_t v, typename W::Query& query, Counters& counters) {
@@ -93,16 +83,9 @@ class Shortener {
       });
       for (std::uint64_t pass = 0; pass < drifts; ++pass) drift(round * drifts + pass);
       thin();
-      const double now = whole();
-      idle = best - now > options.worth * best ? 0 : idle + 1;
-      const double promised = now - ahead * (best - now);
-      best = std::min(best, now);
-      if (promised > options.hopeless) break;
-    }
+    });
     return std::move(path_);
   }
-
-  const Counters& counters() const { return counters_; }
 
  private:
   static constexpr std::uint64_t candidates = 64;
@@ -124,6 +107,21 @@ class Shortener {
   };
 
   double whole() const { return path_length(path_, length_); }
+  /// Calls make(round) until rounds are over or are not worth it any more; best: the length before them.
+  template <class Make>
+  void repeat(std::uint32_t rounds, const ImproveOptions& until, double best, const Make& make) {
+    constexpr double ahead = 2.0;  // so many times what it took off is what a round promises
+    std::uint32_t idle = 0;
+    for (std::uint32_t round = 0; round < rounds && idle < until.patience && path_.size() > 2; ++round) {
+      execution_.check();
+      unsure_ = noise * best;
+      make(round);
+      const double now = whole();
+      if (now - ahead * (best - now) > until.hopeless) return;
+      idle = best - now > until.worth * best ? 0 : idle + 1;
+      best = std::min(best, now);
+    }
+  }
   State at(const PlaceOnPath& p) const { return world_.interpolate(path_[p.leg], path_[p.leg + 1], p.share); }
   /// Before: p lies before q, not on one leg.
   double length_between(const PlaceOnPath& p, const PlaceOnPath& q) const {
@@ -329,10 +327,6 @@ class Shortener {
     for_each(count, [&](std::size_t i, typename W::Query& query, Counters& counters) {
       changes[i] = make(i, query, counters);
     });
-    apply(changes);
-  }
-
-  void apply(std::vector<Change>& changes) {
     std::erase_if(changes, [](const Change& c) { return c.gain <= 0.0; });
     std::vector<const Change*> order;
     for (const Change& change : changes) order.push_back(&change);
@@ -382,7 +376,7 @@ class Shortener {
   const std::uint64_t seed_;
   const Execution& execution_;
   double unsure_ = 0.0;  // gains may be off by so much
-  Counters counters_;
+  Counters& counters_;
 };
 
 }  // namespace detail
@@ -394,10 +388,11 @@ template <SteerableWorld W, class Length>
 Path<typename W::State> shortcut_path(const W& world, Path<typename W::State> path, const Length& length,
                                       const ShortcutOptions& options, const Execution& execution, Counters& counters) {
   if (path.size() < 3) return path;
-  detail::Shortener<W, Length> shortener(world, std::move(path), length, options.seed, execution);
-  Path<typename W::State> shorter = shortener.shortened(options.rounds);
-  counters += shortener.counters();
-  return shorter;
+  Counters done;
+  path = detail::Shortener<W, Length>(world, std::move(path), length, options.seed, execution, done)
+             .shortened(options.rounds);
+  counters += done;
+  return path;
 }
 
 /// As shortcut_path(), for searches that go on.
@@ -405,10 +400,10 @@ template <SteerableWorld W, class Length>
 Path<typename W::State> improve_path(const W& world, Path<typename W::State> path, const Length& length,
                                      const ImproveOptions& options, const Execution& execution, Counters& counters) {
   if (path.size() < 2) return path;
-  detail::Shortener<W, Length> shortener(world, std::move(path), length, options.seed, execution);
-  Path<typename W::State> shorter = shortener.improved(options);
-  counters += shortener.counters();
-  return shorter;
+  Counters done;
+  path = detail::Shortener<W, Length>(world, std::move(path), length, options.seed, execution, done).improved(options);
+  counters += done;
+  return path;
 }
 
 }  // namespace warren

@@ -48,7 +48,6 @@ class FloodOfPlaces {
   }
   /// Takes steps until a place of `to` is reached: which one; x < 0 where none can be.
   Place reach(const RowBits& to) {
-    if (first_ >= last_) return {-1, -1};
     Place met = common(to);
     RowBits wide{};
     while (met.x < 0) {

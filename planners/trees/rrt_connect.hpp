@@ -151,8 +151,11 @@ class RrtConnectSearch {
       return;
     }
     const VertexId from = mine.nearest(*target, counters_);
-    if (other_is_due()) turn_ = 1 - side;
-    if (is_beyond_domain(side, from, *target)) return;
+    // In turns; where there are domains, a tree that is less than half of the other one goes on.
+    if (!options_->domain || trees_[1 - side].size() < 2 * mine.size()) turn_ = 1 - side;
+    // An obstacle near to the vertex takes the most of samples so far away.
+    const bool has_failed = from < failed_[side].size() && failed_[side][from];
+    if (options_->domain && has_failed && mine.length(from, *target) > *options_->domain * step_) return;
     if (!leave_joints(*target, mine.state(from))) return;
     const State next = mine.towards(from, *target, step_);
     if (!is_worth(side, from, next)) return;
@@ -170,13 +173,10 @@ class RrtConnectSearch {
     const State next = mine.towards(grown, target, step_);
     return is_worth(side, grown, next) ? mine.join(grown, next, query_, counters_).value_or(grown) : grown;
   }
-  /// The least that is left from a state of a tree to the other end, where there is a bound.
-  double least_rest(std::size_t side, const State& state) const {
-    return side == 1 ? trees_[0].length(0, state) : informed_->rest(state);
-  }
   bool is_worth(std::size_t side, VertexId from, const State& next) const {
-    return most_ == unbounded ||
-           trees_[side].cost(from) + trees_[side].length(from, next) + least_rest(side, next) < most_;
+    if (most_ == unbounded) return true;
+    const double least_rest = side == 1 ? trees_[0].length(0, next) : informed_->rest(next);  // to the other end
+    return trees_[side].cost(from) + trees_[side].length(from, next) + least_rest < most_;
   }
   /// Grows the other tree towards a new state of this one.
   void meet(std::size_t side, VertexId grown, const Execution& execution) {
@@ -195,13 +195,6 @@ class RrtConnectSearch {
     });
     arrived_ = other.state(meeting_[1 - side]) == state && (!bounded || cost() < most_);
   }
-  /// Does an obstacle near to the vertex take the most of samples so far away?
-  bool is_beyond_domain(std::size_t side, VertexId v, const State& target) const {
-    if (!options_->domain || v >= failed_[side].size() || !failed_[side][v]) return false;
-    return trees_[side].length(v, target) > *options_->domain * step_;
-  }
-  /// In turns; where there are domains, a tree that is less than half of the other one goes on.
-  bool other_is_due() const { return !options_->domain || trees_[1 - turn_].size() < 2 * trees_[turn_].size(); }
   /// Grows the tree from a vertex along the way, over more of its places where a corner is cut too close: its last
   /// vertex.
   std::optional<VertexId> walk(MotionTree<W>& tree, VertexId from, const PlaceWay& way, const Execution& execution) {

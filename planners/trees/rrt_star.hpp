@@ -12,10 +12,12 @@
 #pragma once
 
 #include <algorithm>
+#include <compare>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "planners/roadmap/connection.hpp"
@@ -149,8 +151,7 @@ class RrtStarTree {
   }
   /// Start to goal; empty: there is none.
   Path<State> path() const {
-    Path<State> way;
-    if (const VertexId last = best_goal(); last != no_vertex) way = tree_.way_to_root(last);
+    Path<State> way = tree_.way_to_root(best_goal());
     std::reverse(way.begin(), way.end());
     return way;
   }
@@ -169,12 +170,10 @@ class RrtStarTree {
 
   /// What is near a state.
   struct Near {
-    double cost;    // of the state by a motion from the vertex
-    double length;  // of that motion
+    double cost;  // of the state by a motion from the vertex
     VertexId vertex;
-    friend bool operator<(const Near& a, const Near& b) {
-      return a.cost != b.cost ? a.cost < b.cost : a.vertex < b.vertex;
-    }
+    double length;  // of that motion
+    friend auto operator<=>(const Near& a, const Near& b) = default;
   };
   struct Guide {
     const Path<State>& path;
@@ -218,9 +217,8 @@ class RrtStarTree {
   /// A step from the nearest state towards the target, and what is near there; nothing where the tree has it.
   std::optional<State> next_state(const State& target) {
     find_near(target);
-    const auto nearest = std::min_element(near_.begin(), near_.end(), [](const Near& a, const Near& b) {
-      return a.length != b.length ? a.length < b.length : a.vertex < b.vertex;
-    });
+    const auto nearest =
+        std::ranges::min_element(near_, {}, [](const Near& n) { return std::pair(n.length, n.vertex); });
     State state = target;
     if (nearest->length > options_.step) {
       state = tree_.towards(nearest->vertex, target, options_.step);
@@ -244,7 +242,7 @@ class RrtStarTree {
     near_.clear();
     for (const Neighbour& n : found_) {
       const double length = tree_.length(n.id, state);
-      near_.push_back({tree_.cost(n.id) + length, length, n.id});
+      near_.push_back({tree_.cost(n.id) + length, n.id, length});
     }
   }
   void take_step(double best, const Guide& guide, const Execution& execution) {

@@ -221,7 +221,10 @@ class CellSweep {
     const Node top = touching_.empty() ? below_ : touching_.back();
     const std::uint32_t upper_cell = top->entry.cell;
     const std::uint32_t upper_polygon = top->entry.polygon;
-    close_cells();
+    if (lower_cell != no_number) result_.cells[lower_cell].right = corner_;
+    for (const Node n : touching_) {
+      if (n->entry.cell != no_number) result_.cells[n->entry.cell].right = corner_;
+    }
     sort_starting();
     put_starting();
     open_cells(upper_polygon);
@@ -234,26 +237,14 @@ class CellSweep {
     check_neighbours(below_, put_.empty() ? above_ : put_.front());
     if (!put_.empty()) check_neighbours(last, above_);
   }
-  void close_cells() {
-    const auto close = [&](Node n) {
-      const std::uint32_t cell = n->entry.cell;
-      if (cell != no_number) result_.cells[cell].right = corner_;
-    };
-    close(below_);
-    for (const Node n : touching_) close(n);
-  }
   /// Takes over what goes on through the corner, and sorts by angle from below; of segments that lie on each other,
   /// those that leave a polygon first, those that enter one last.
   void sort_starting() {
-    std::size_t ended = 0;
+    const std::size_t begun = starting_.size();
     for (const Node n : touching_) {
-      const SweepEntry& entry = n->entry;
-      if (entry.b == at_) {
-        ++ended;
-      } else {
-        starting_.push_back(entry.segment);
-      }
+      if (!(n->entry.b == at_)) starting_.push_back(n->entry.segment);
     }
+    const std::size_t ended = touching_.size() - (starting_.size() - begun);
     if (ended != ending_.size()) clash(ending_.front(), ending_.back());  // crossings are found before they show here
     if (starting_.size() < 2) return;
     const auto rank = [&](std::uint32_t segment) { return is_wall(segment) ? 1 : inside_is_above(segment) ? 2 : 0; };
@@ -388,46 +379,42 @@ struct CrossingCuts {
   bool crossed = false;      ///< is one of them a rounded crossing?
 };
 
-Vec2 rounded_crossing(const IntegerPiece& p, const IntegerPiece& q) {
+Vec2 rounded_crossing(const Segment& p, const Segment& q) {
   const Vec2 along = p.b - p.a;
   const Vec2 other = q.b - q.a;
   const double t = std::clamp(cross(q.a - p.a, other) / cross(along, other), 0.0, 1.0);
   return {std::nearbyint(p.a.x + t * along.x), std::nearbyint(p.a.y + t * along.y)};
 }
 
-/// Where do two pieces have to be split? Ends that lie inside the other, and the rounded point of a crossing.
-void cut_pair(const std::vector<IntegerPiece>& pieces, std::uint32_t i, std::uint32_t j, CrossingCuts& found,
-              const Execution& execution) {
-  const IntegerPiece& p = pieces[i];
-  const IntegerPiece& q = pieces[j];
-  const auto cut = [&](std::uint32_t number, const IntegerPiece& piece, Vec2 at) {
-    if (!(at == piece.a) && !(at == piece.b)) push_asked(found.cuts, {number, at}, execution);
-  };
-  if (segments_cross({p.a, p.b}, {q.a, q.b})) {
-    const Vec2 at = rounded_crossing(p, q);
-    const std::size_t before = found.cuts.size();
-    cut(i, p, at);
-    cut(j, q, at);
-    found.crossed = found.crossed || found.cuts.size() > before;
-    return;
-  }
-  for (const Vec2 end : {q.a, q.b}) {
-    if (on_segment(end, {p.a, p.b})) cut(i, p, end);
-  }
-  for (const Vec2 end : {p.a, p.b}) {
-    if (on_segment(end, {q.a, q.b})) cut(j, q, end);
-  }
-}
-
-/// What is left to cut. Throws Stopped at the deadline and the memory limit: crowded pieces have many cuts.
+/// Where pieces still have to be split: at ends that lie inside another one, and at the rounded points of crossings.
+/// Throws Stopped at the deadline and the memory limit: crowded pieces have many cuts.
 CrossingCuts find_cuts(const std::vector<IntegerPiece>& pieces, const Execution& execution) {
   CrossingCuts found;
   execution.reserve(pieces.size() * sizeof(Segment));
   std::vector<Segment> segments;
   segments.reserve(pieces.size());
   for (const IntegerPiece& p : pieces) segments.push_back({p.a, p.b});
+  const auto cut = [&](std::uint32_t piece, Vec2 at) {
+    const bool is_end = at == segments[piece].a || at == segments[piece].b;
+    if (!is_end) push_asked(found.cuts, {piece, at}, execution);
+  };
   SegmentGrid(segments, execution).for_each_pair(segments, execution, [&](std::uint32_t i, std::uint32_t j) {
-    cut_pair(pieces, i, j, found, execution);
+    const Segment& p = segments[i];
+    const Segment& q = segments[j];
+    if (segments_cross(p, q)) {
+      const Vec2 at = rounded_crossing(p, q);
+      const std::size_t before = found.cuts.size();
+      cut(i, at);
+      cut(j, at);
+      found.crossed = found.crossed || found.cuts.size() > before;
+      return true;
+    }
+    for (const Vec2 end : {q.a, q.b}) {
+      if (on_segment(end, p)) cut(i, end);
+    }
+    for (const Vec2 end : {p.a, p.b}) {
+      if (on_segment(end, q)) cut(j, end);
+    }
     return true;
   });
   return found;

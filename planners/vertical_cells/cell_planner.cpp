@@ -421,28 +421,6 @@ class TautSearch {
   std::uint64_t expanded_ = 0;
 };
 
-/// Why no path leads from start to goal: how many cells each can reach, and the gap between them.
-/// parts: of the graph of the cells, with start and goal behind them in this order. Sizes count cells; the gap is the
-/// least distance between the ends and the doors' middles of either side. O(cells).
-Separation cell_separation(const CellDecomposition& cells, const Components& parts, Vec2 start, Vec2 goal,
-                           const Execution& execution) {
-  const auto start_vertex = static_cast<VertexId>(cells.cells.size());
-  const VertexId goal_vertex = start_vertex + 1;
-  const DoorPoints doors(cells, execution);
-  const auto points_of = [&](VertexId vertex, Vec2 end) {
-    std::vector<Vec2> points{end};
-    for (std::uint32_t d = 0; d < cells.doors.size(); ++d) {
-      const Door& door = cells.doors[d];
-      if (!door.shut && parts.connected(door.left, vertex)) push_asked(points, doors.middle(d), execution);
-    }
-    return points;
-  };
-  Separation result = separation_between<2>(points_of(start_vertex, start), points_of(goal_vertex, goal), execution);
-  result.start_size = parts.size_of(start_vertex) - 1;
-  result.goal_size = parts.size_of(goal_vertex) - 1;
-  return result;
-}
-
 /// One plan: the steps share the question and fill in the solution.
 class CellPlanning {
  public:
@@ -515,7 +493,21 @@ class CellPlanning {
     solution_.roadmap.components = parts.count;
     if (parts.connected(start_vertex(), goal_vertex())) return true;
     solution_.outcome = Outcome::not_connected;
-    solution_.separation = cell_separation(*cells_, parts, start_, goal_, execution_);
+    // The gap between the ends and the doors' middles of either side; sizes count cells.
+    const DoorPoints doors(*cells_, execution_);
+    const auto points_of = [&](VertexId vertex, Vec2 end) {
+      std::vector<Vec2> points{end};
+      for (std::uint32_t d = 0; d < cells_->doors.size(); ++d) {
+        const Door& door = cells_->doors[d];
+        if (!door.shut && parts.connected(door.left, vertex)) push_asked(points, doors.middle(d), execution_);
+      }
+      return points;
+    };
+    Separation gap =
+        separation_between<2>(points_of(start_vertex(), start_), points_of(goal_vertex(), goal_), execution_);
+    gap.start_size = parts.size_of(start_vertex()) - 1;
+    gap.goal_size = parts.size_of(goal_vertex()) - 1;
+    solution_.separation = gap;
     return false;
   }
   void find_route() {

@@ -445,15 +445,13 @@ class DiscSearch {
     for (const std::uint32_t c : sight_.candidates(side)) {
       const SideId first = c == sight_.ends() ? goal_ : 2 * c;
       for (SideId to = first; to <= (c == sight_.ends() ? goal_ : first + 1); ++to) {
-        if (const std::optional<TangentWay> way = draw(side, to)) visit(add(*way));
+        const std::optional<TangentWay> way = draw(side, to);
+        if (!way) continue;
+        ++counts_.candidates;
+        ways_.push_back(*way);
+        visit(static_cast<std::uint32_t>(ways_.size() - 1));
       }
     }
-  }
-
-  std::uint32_t add(const TangentWay& way) {
-    ++counts_.candidates;
-    ways_.push_back(way);
-    return static_cast<std::uint32_t>(ways_.size() - 1);
   }
 
   /// Draws the tangents that leave a side.
@@ -464,9 +462,7 @@ class DiscSearch {
     constexpr std::size_t queued = 16;  // bytes of a way in the queue
     sight_.execution.reserve(2 * sight_.candidates(side).size() * (sizeof(TangentWay) + queued));
     draw_from(side, [&](std::uint32_t number) { here.ways.push_back(number); });
-    std::sort(here.ways.begin(), here.ways.end(), [&](std::uint32_t v, std::uint32_t w) {
-      return ways_[v].out != ways_[w].out ? ways_[v].out < ways_[w].out : ways_[v].to < ways_[w].to;
-    });
+    std::ranges::sort(here.ways, {}, [&](std::uint32_t way) { return std::pair(ways_[way].out, ways_[way].to); });
   }
 
   void arrive(std::uint32_t number) {
@@ -549,74 +545,6 @@ class DiscSearch {
   std::uint64_t settled_ = 0;
 };
 
-/// One question: both searches.
-class DiscPlan {
- public:
-  DiscPlan(const DiscGround& ground, const Graph* known, Vec2 start, Vec2 goal, double radius,
-           const Execution& execution)
-      : world_(with_points(ground.box, start, goal)),
-        doubt_(1e-12 * radius + 64.0 * unit_rounding * (world_.width() + world_.height())),
-        room_(doubt_ + 8.0 * unit_rounding * std::max({-world_.min.x, world_.max.x, -world_.min.y, world_.max.y})),
-        sight_(ground, known, start, goal, radius + room_, execution),
-        loose_(sight_, {radius, radius - 0.5 * doubt_, true}, room_, path_),
-        tight_(sight_, {radius + room_, radius + 0.5 * room_, false}, room_, path_) {
-    path_.radius = radius + room_;
-    path_.circles = ground.circles.size();
-  }
-
-  DiscPath run() {
-    path_.outcome = plan();
-    return std::move(path_);
-  }
-
- private:
-  static Box with_points(Box box, Vec2 start, Vec2 goal) {
-    box.include(start);
-    box.include(goal);
-    return box;
-  }
-
-  Outcome plan() {
-    if (!loose_.stands(sight_.start)) return blocked(Outcome::start_blocked);
-    if (!loose_.stands(sight_.goal)) return blocked(Outcome::goal_blocked);
-    if (sight_.start == sight_.goal) {
-      path_.pieces.push_back({sight_.start, sight_.goal, std::nullopt, false, 0.0});
-      return stands_tightly();
-    }
-    const std::vector<TangentWay> found = loose_.search();
-    if (found.empty()) return blocked(Outcome::infeasible);
-    const double roundings = 32.0 * static_cast<double>(found.size() + 1);
-    const double length = loose_.length_of(found);
-    path_.lower_bound = std::max(0.0, length - roundings * unit_rounding * (length + path_.radius));
-    const Outcome ends = stands_tightly();
-    if (ends != Outcome::solved) return ends;
-    std::vector<TangentWay> kept = tight_.follow(found);
-    if (kept.empty()) kept = tight_.search();
-    if (kept.empty()) return Outcome::not_connected;
-    path_.length = tight_.length_of(kept);
-    path_.pieces = tight_.pieces_of(kept);
-    return Outcome::solved;
-  }
-
-  Outcome blocked(Outcome outcome) {
-    path_.lower_bound = std::numeric_limits<double>::infinity();
-    return outcome;
-  }
-
-  Outcome stands_tightly() const {
-    if (!tight_.stands(sight_.start)) return Outcome::start_blocked;
-    return tight_.stands(sight_.goal) ? Outcome::solved : Outcome::goal_blocked;
-  }
-
-  const Box world_;     // roundings are parts of its size, and of its largest coordinate
-  const double doubt_;  // what counts as rounding
-  const double room_;   // by which circles are larger, and more than coordinates are rounded by
-  DiscSight sight_;
-  DiscPath path_;
-  DiscSearch loose_;
-  DiscSearch tight_;
-};
-
 }  // namespace
 
 std::uint64_t DiscPath::arcs() const {
@@ -629,7 +557,47 @@ std::uint64_t DiscPath::arcs() const {
 
 DiscPath shortest_disc_path(const DiscGround& ground, Vec2 start, Vec2 goal, double radius, const Execution& execution,
                             const Graph* known) {
-  return DiscPlan(ground, known, start, goal, radius, execution).run();
+  Box world = ground.box;  // roundings are parts of its size, and of its largest coordinate
+  world.include(start);
+  world.include(goal);
+  const double doubt = 1e-12 * radius + 64.0 * unit_rounding * (world.width() + world.height());  // is rounding
+  // By which circles are larger, and more than coordinates are rounded by.
+  const double room = doubt + 8.0 * unit_rounding * std::max({-world.min.x, world.max.x, -world.min.y, world.max.y});
+  DiscPath path;
+  path.radius = radius + room;
+  path.circles = ground.circles.size();
+  DiscSight sight(ground, known, start, goal, radius + room, execution);
+  DiscSearch loose(sight, {radius, radius - 0.5 * doubt, true}, room, path);
+  DiscSearch tight(sight, {radius + room, radius + 0.5 * room, false}, room, path);
+  const auto ended = [&](Outcome outcome) {
+    path.outcome = outcome;
+    return std::move(path);
+  };
+  const auto blocked = [&](Outcome outcome) {
+    path.lower_bound = std::numeric_limits<double>::infinity();
+    return ended(outcome);
+  };
+  if (!loose.stands(start)) return blocked(Outcome::start_blocked);
+  if (!loose.stands(goal)) return blocked(Outcome::goal_blocked);
+  std::vector<TangentWay> found;
+  if (start == goal) {
+    path.pieces.push_back({start, goal, std::nullopt, false, 0.0});
+  } else {
+    found = loose.search();
+    if (found.empty()) return blocked(Outcome::infeasible);
+    const double roundings = 32.0 * static_cast<double>(found.size() + 1);
+    const double length = loose.length_of(found);
+    path.lower_bound = std::max(0.0, length - roundings * unit_rounding * (length + path.radius));
+  }
+  if (!tight.stands(start)) return ended(Outcome::start_blocked);
+  if (!tight.stands(goal)) return ended(Outcome::goal_blocked);
+  if (start == goal) return ended(Outcome::solved);
+  std::vector<TangentWay> kept = tight.follow(found);
+  if (kept.empty()) kept = tight.search();
+  if (kept.empty()) return ended(Outcome::not_connected);
+  path.length = tight.length_of(kept);
+  path.pieces = tight.pieces_of(kept);
+  return ended(Outcome::solved);
 }
 
 Path<Vec2> polyline_of(const DiscPath& path, const Execution& execution) {

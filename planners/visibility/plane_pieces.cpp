@@ -80,6 +80,12 @@ bool is_left(const Segment& s, Vec2 at) {
   return s.b.x > s.a.x;
 }
 
+/// Of two points on one ray from the eye, neither of which is there.
+bool is_nearer_on_ray(Vec2 eye, Vec2 p, Vec2 q) {
+  if (p.x != q.x) return (p.x < q.x) == (eye.x < q.x);
+  return p.y != q.y && (p.y < q.y) == (eye.y < q.y);
+}
+
 constexpr double open_sight = std::numeric_limits<double>::infinity();
 constexpr double place_margin = 1e-9;    // of places: far above their rounding, far below a range's width
 constexpr double shallow = 1e-6;         // sines below this: a distance along the ray is not to be trusted
@@ -95,18 +101,12 @@ Vec2 direction_at(double place) {
 
 /// The first and the last direction, anticlockwise, in which the box lies; the origin is not in it.
 std::pair<Vec2, Vec2> view_of(const Box& b) {
-  if (b.min.x > 0.0) {
-    if (b.min.y > 0.0) return {{b.max.x, b.min.y}, {b.min.x, b.max.y}};
-    if (b.max.y < 0.0) return {b.min, b.max};
-    return {b.min, {b.min.x, b.max.y}};
-  }
-  if (b.max.x < 0.0) {
-    if (b.min.y > 0.0) return {b.max, b.min};
-    if (b.max.y < 0.0) return {{b.min.x, b.max.y}, {b.max.x, b.min.y}};
-    return {b.max, {b.max.x, b.min.y}};
-  }
-  if (b.min.y > 0.0) return {{b.max.x, b.min.y}, b.min};
-  return {{b.min.x, b.max.y}, b.max};
+  const bool right = b.min.x > 0.0;
+  const bool left = b.max.x < 0.0;
+  const bool above = b.min.y > 0.0;
+  const bool below = b.max.y < 0.0;
+  return {{above || (left && !below) ? b.max.x : b.min.x, right || (above && !left) ? b.min.y : b.max.y},
+          {below || (left && !above) ? b.max.x : b.min.x, left || (above && !right) ? b.min.y : b.max.y}};
 }
 
 /// A piece that leaves the point, and how many more polygons lie anticlockwise of it than clockwise.
@@ -187,11 +187,7 @@ RawVector<PlanePieces::Cut> PlanePieces::cuts_of(std::span<const Segment> segmen
   }
   const auto is_earlier = [&](const Cut& c, const Cut& d) {
     if (c.segment != d.segment) return c.segment < d.segment;
-    const Segment& s = segments[c.segment];
-    const Vec2 p = points_[c.at];
-    const Vec2 q = points_[d.at];
-    if (p.x != q.x) return (p.x < q.x) == (s.a.x < s.b.x);
-    return p.y != q.y && (p.y < q.y) == (s.a.y < s.b.y);
+    return is_nearer_on_ray(segments[c.segment].a, points_[c.at], points_[d.at]);
   };
   polled_sort(cuts.begin(), cuts.end(), execution, is_earlier);
   return cuts;
@@ -337,10 +333,7 @@ void NearPieces::see(std::uint32_t piece) {
     v.to_line = -v.to_line;
   }
   const double size = norm(v.first) * norm(v.last);
-  if (!(v.to_line > 1e-12 * size)) {  // seen end on, or the eye is its end
-    seen_.push_back(piece);
-    return;
-  }
+  if (!(v.to_line > 1e-12 * size)) return seen_.push_back(piece);  // seen end on, or the eye is its end
   v.steep = v.to_line > shallow * norm(v.first) * norm(v.last - v.first);
   const double first = direction_place(v.first) + 4.0;  // so that a margin before place 0 stays positive
   double last = direction_place(v.last) + 4.0;
@@ -349,10 +342,7 @@ void NearPieces::see(std::uint32_t piece) {
   v.outer_end = static_cast<std::size_t>((last + place_margin) * scale) + 1;
   v.begin = static_cast<std::size_t>(std::ceil((first + place_margin) * scale));
   v.end = static_cast<std::size_t>(std::floor((last - place_margin) * scale));
-  if (v.begin >= v.end) {  // too narrow to hide anything
-    seen_.push_back(piece);
-    return;
-  }
+  if (v.begin >= v.end) return seen_.push_back(piece);  // too narrow to hide anything
   if (is_hidden(v)) return;
   seen_.push_back(piece);
   hide_behind(v);
@@ -469,11 +459,6 @@ std::vector<SectorOfPoints> free_sectors_at(const PlanePieces& pieces, PointId a
 RotationalSweep::RotationalSweep(const PlanePieces& pieces, const Execution& execution)
     : pieces_(pieces), execution_(execution), event_of_(pieces.points().size(), 0) {}
 
-bool RotationalSweep::nearer_on_ray(Vec2 p, Vec2 q) const {
-  if (p.x != q.x) return (p.x < q.x) == (eye_.x < q.x);
-  return p.y != q.y && (p.y < q.y) == (eye_.y < q.y);
-}
-
 bool RotationalSweep::same_ray(const Event& e, const Event& f) const {
   return std::abs(e.place - f.place) < place_doubt && DirectionOrder(eye_).same(e.at, f.at);
 }
@@ -482,7 +467,7 @@ bool RotationalSweep::comes_before(const Event& e, const Event& f) const {
   const DirectionOrder before(eye_);
   if (!before.same(e.at, f.at)) return before(e.at, f.at);
   if (e.at == f.at) return e.id == target && f.id != target;
-  return nearer_on_ray(e.at, f.at);
+  return is_nearer_on_ray(eye_, e.at, f.at);
 }
 
 std::uint32_t RotationalSweep::event_of(PointId p) {
@@ -500,7 +485,7 @@ void RotationalSweep::add_radial_piece(PointId a, PointId b) {
   const Vec2 at_b = pieces_.points()[b];
   const bool from_eye = at_a == eye_ || at_b == eye_;
   const bool around_eye = !from_eye && !DirectionOrder(eye_).same(at_a, at_b);
-  const bool a_is_nearer = at_a == eye_ || (!from_eye && nearer_on_ray(at_a, at_b));
+  const bool a_is_nearer = at_a == eye_ || (!from_eye && is_nearer_on_ray(eye_, at_a, at_b));
   const auto add = [&](PointId p, Vec2 at, bool is_farther) {
     if (at == eye_ || !is_passed(at)) return;
     Event& event = events_[event_of(p)];
@@ -514,16 +499,16 @@ void RotationalSweep::add_piece(PointId a, PointId b) {
   const int turn = orient2d(eye_, pieces_.points()[a], pieces_.points()[b]);
   if (turn == 0) return add_radial_piece(a, b);
   if (turn < 0) std::swap(a, b);
-  const SeenPiece seen{pieces_.points()[a], pieces_.points()[b]};
-  const bool starts = is_passed(seen.first);
-  const bool ends = is_passed(seen.last);
+  const Segment seen{pieces_.points()[a], pieces_.points()[b]};
+  const bool starts = is_passed(seen.a);
+  const bool ends = is_passed(seen.b);
   if (!starts && !ends) return;
   const auto number = static_cast<std::uint32_t>(seen_.size());
   seen_.push_back(seen);
   next_start_.push_back(starts ? std::exchange(events_[event_of(a)].starts, number) : none);
   next_end_.push_back(ends ? std::exchange(events_[event_of(b)].ends, number) : none);
   const DirectionOrder order(eye_);
-  if (order.is_low(seen.first) && !order.is_low(seen.last)) crossed_at_first_.push_back(number);
+  if (order.is_low(seen.a) && !order.is_low(seen.b)) crossed_at_first_.push_back(number);
 }
 
 void RotationalSweep::sort_events() {

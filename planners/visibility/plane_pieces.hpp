@@ -221,36 +221,37 @@ std::vector<SectorOfPoints> free_sectors_at(const PlanePieces& pieces, PointId a
 //   CrossedPieces  where pieces cross there is no such order: a list, tried from the one that hid last. insert, remove
 //                  O(1), hides O(n).
 
-/// A piece as the eye sees it: anticlockwise from first to last, so the eye is on its left.
-struct SeenPiece {
-  Vec2 first;
-  Vec2 last;
-};
+// A piece as the eye sees it runs anticlockwise, so the eye is on its left.
 
 /// Does the piece lie between the eye and q, a point whose direction it spans? Not if q is on it.
-inline bool lies_before(const SeenPiece& piece, Vec2 q) { return orient2d(piece.first, piece.last, q) < 0; }
+inline bool lies_before(const Segment& piece, Vec2 q) { return orient2d(piece.a, piece.b, q) < 0; }
 
 /// Is e nearer to the eye than f, along any ray that crosses both? They don't cross.
-inline bool is_nearer(const SeenPiece& e, const SeenPiece& f) {
-  const int first = orient2d(e.first, e.last, f.first);
-  const int last = orient2d(e.first, e.last, f.last);
+inline bool is_nearer(const Segment& e, const Segment& f) {
+  const int first = orient2d(e.a, e.b, f.a);
+  const int last = orient2d(e.a, e.b, f.b);
   if (first <= 0 && last <= 0) return true;
   if (first >= 0 && last >= 0) return false;
-  return orient2d(f.first, f.last, e.first) >= 0 && orient2d(f.first, f.last, e.last) >= 0;
+  return orient2d(f.a, f.b, e.a) >= 0 && orient2d(f.a, f.b, e.b) >= 0;
 }
 
 /// What both kinds keep: the pieces by number, those that are crossed, and where among these each stands.
 class HeldPieces {
  public:
   /// Empty again, for pieces 0 .. pieces.size() - 1, which must outlive the use.
-  void reset(std::span<const SeenPiece> pieces) {
+  void reset(std::span<const Segment> pieces) {
     pieces_ = pieces;
     held_.clear();
     if (place_.size() < pieces.size()) place_.resize(pieces.size());
   }
 
  protected:
-  std::span<const SeenPiece> pieces_;
+  void put(std::size_t at, std::uint32_t piece) {
+    held_[at] = piece;
+    place_[piece] = static_cast<std::uint32_t>(at);
+  }
+
+  std::span<const Segment> pieces_;
   std::vector<std::uint32_t> held_;
   std::vector<std::uint32_t> place_;
 };
@@ -277,10 +278,6 @@ class NearestPieces : public HeldPieces {
 
  private:
   bool nearer(std::uint32_t e, std::uint32_t f) const { return is_nearer(pieces_[e], pieces_[f]); }
-  void put(std::size_t at, std::uint32_t piece) {
-    held_[at] = piece;
-    place_[piece] = static_cast<std::uint32_t>(at);
-  }
   void sift_up(std::size_t at, std::uint32_t piece) {
     for (; at > 0 && nearer(piece, held_[(at - 1) / 2]); at = (at - 1) / 2) put(at, held_[(at - 1) / 2]);
     put(at, piece);
@@ -305,9 +302,7 @@ class CrossedPieces : public HeldPieces {
     held_.push_back(piece);
   }
   void remove(std::uint32_t piece) {
-    const std::uint32_t last = held_.back();
-    held_[place_[piece]] = last;
-    place_[last] = place_[piece];
+    put(place_[piece], held_.back());
     held_.pop_back();
   }
   bool hides(Vec2 q) {
@@ -371,7 +366,6 @@ class RotationalSweep {
   void add_piece(PointId a, PointId b);
   void add_radial_piece(PointId a, PointId b);
   void sort_events();
-  bool nearer_on_ray(Vec2 p, Vec2 q) const;
   bool is_passed(Vec2 p) const { return !half_ || !DirectionOrder(eye_).is_low(p); }
   bool comes_before(const Event& e, const Event& f) const;
   bool same_ray(const Event& e, const Event& f) const;
@@ -421,7 +415,7 @@ class RotationalSweep {
   std::uint32_t rays_ = 0;
   std::vector<Event> events_;
   std::vector<Turned> order_;
-  std::vector<SeenPiece> seen_;  // pieces that are not seen end on
+  std::vector<Segment> seen_;  // pieces that are not seen end on
   std::vector<std::uint32_t> next_start_;
   std::vector<std::uint32_t> next_end_;
   std::vector<std::uint32_t> crossed_at_first_;

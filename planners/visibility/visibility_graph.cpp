@@ -34,13 +34,12 @@ PlaceRange range_of(Vec2 at, const Sector& sector) {
   return apart < doubt || apart > 4.0 - doubt ? all_round : range;
 }
 
-/// Vertices a chunk: few enough to share the work, enough to pay for a chunk's scratch, which is O(n).
-std::size_t grain_for(std::size_t vertices) { return std::clamp<std::size_t>(vertices / 256, 16, 1024); }
-
 /// Of each chunk's vertices in a row the neighbours above, ascending, and no_vertex behind them.
 std::vector<RawVector<VertexId>> rows_above(const VisibleCorners& corners, VisibilityEdges which,
                                             const Execution& execution) {
-  return parts_of_chunks(corners.size(), grain_for(corners.size()), execution, [&](Range r) {
+  // Few enough to share the work, enough to pay for a chunk's scratch, which is O(n).
+  const std::size_t grain = std::clamp<std::size_t>(corners.size() / 256, 16, 1024);
+  return parts_of_chunks(corners.size(), grain, execution, [&](Range r) {
     CornerSight sight(corners, execution);
     std::vector<VertexId> seen;
     RawVector<VertexId> part;
@@ -99,17 +98,6 @@ DiscCircle circle_around(const VisibleCorners& corners, VertexId v) {
   const double width = portable::atan2(cross(circle.begin, end), dot(circle.begin, end));
   circle.width = sector.first == sector.last ? std::numbers::pi : std::max(width, 0.0);
   return circle;
-}
-
-/// Walls without length, each place once.
-std::vector<Vec2> places_of_points(const std::vector<Segment>& walls, const Execution& execution) {
-  std::vector<Vec2> places;
-  for (const Segment& wall : walls) {
-    if (wall.a == wall.b) push_asked(places, wall.a, execution);
-  }
-  polled_sort(places.begin(), places.end(), execution, is_before);
-  places.erase(std::unique(places.begin(), places.end()), places.end());
-  return places;
 }
 
 }  // namespace
@@ -386,7 +374,12 @@ DiscGround::DiscGround(const PlaneObstacles& obstacles, const Execution& executi
     circles.push_back(circle_around(corners, v));
   }
   first_whole = static_cast<std::uint32_t>(circles.size());
-  const std::vector<Vec2> points = places_of_points(obstacles.walls, execution);
+  std::vector<Vec2> points;  // walls without length, each place once
+  for (const Segment& wall : obstacles.walls) {
+    if (wall.a == wall.b) push_asked(points, wall.a, execution);
+  }
+  polled_sort(points.begin(), points.end(), execution, is_before);
+  points.erase(std::unique(points.begin(), points.end()), points.end());
   execution.reserve(points.size() * (sizeof(Segment) + sizeof(DiscCircle)));
   for (const Vec2 p : points) {
     execution.check();
@@ -477,9 +470,14 @@ class VisibilityPlan {
     if (!fits(start_)) return end(Outcome::start_blocked), false;
     if (!fits(goal_)) return end(Outcome::goal_blocked), false;
     solution_.roadmap.milestones = corners.size() + 2;
-    if (!(start_ == goal_)) return true;
-    solution_.path = {start_, goal_};
-    return end(Outcome::solved), false;
+    if (start_ == goal_) {
+      solution_.path = {start_, goal_};
+      return end(Outcome::solved), false;
+    }
+    roadmap_.states.reserve(corners.size() + 2);
+    for (VertexId v = 0; v < corners.size(); ++v) roadmap_.states.push_back(corners.position(v));
+    roadmap_.states.insert(roadmap_.states.end(), {start_, goal_});
+    return true;
   }
 
   VisibleCorners index(const PlaneObstacles& obstacles) {
@@ -504,7 +502,7 @@ class VisibilityPlan {
                                      : visibility.search(links, options_.search, options_.queue, state, execution_);
     if (found.status == SearchStatus::exhausted) separate(visibility, visibility.joined(links, execution_));
     if (keep_ != nullptr) roadmap_.search_tree = search_tree(state);
-    finish(visibility.positions(), found);
+    finish(found);
   }
 
   void search_lazily(const VisibleCorners& corners) {
@@ -512,22 +510,17 @@ class VisibilityPlan {
     std::vector<Edge> edges;
     const SearchResult found = lazy_visibility_search(corners, start_, goal_, execution_, solution_.counters, &edges);
     if (found.status == SearchStatus::stopped) execution_.check();
-    std::vector<Vec2> positions(corners.size());
-    for (VertexId v = 0; v < positions.size(); ++v) positions[v] = corners.position(v);
     for (Edge& e : edges) e = {std::min(e.from, e.to), std::max(e.from, e.to)};
     polled_sort(edges.begin(), edges.end(), execution_);
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
     solution_.roadmap.edges = edges.size();
     if (keep_ != nullptr) roadmap_.graph = assemble_graph(corners.size() + 2, edges, execution_);
-    finish(positions, found);
+    finish(found);
   }
 
-  void finish(std::span<const Vec2> positions, const SearchResult& found) {
+  void finish(const SearchResult& found) {
     if (found.status == SearchStatus::stopped) execution_.check();
     solution_.counters.expanded += found.expanded;
-    roadmap_.states.assign(positions.begin(), positions.end());
-    roadmap_.states.push_back(start_);
-    roadmap_.states.push_back(goal_);
     for (const VertexId v : found.path) solution_.path.push_back(roadmap_.states[v]);
     end(found.status == SearchStatus::found ? Outcome::solved : Outcome::not_connected);
     if (keep_ != nullptr) *keep_ = std::move(roadmap_);

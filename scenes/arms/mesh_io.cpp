@@ -26,8 +26,6 @@
 namespace warren {
 namespace {
 
-using MeshTriangle = std::array<std::uint32_t, 3>;
-
 constexpr std::size_t most_mesh_points = std::size_t{1} << 30;
 
 /// Collects points and polygons, which it cuts into triangles.
@@ -355,7 +353,7 @@ bool is_closed(const Mesh& mesh, const Execution& execution) {
   for (auto& some : sides) some.reserve(3 * mesh.triangles.size());
   for (std::size_t number = 0; number < mesh.triangles.size(); ++number) {
     execution.poll(number);
-    const MeshTriangle& t = mesh.triangles[number];
+    const auto& t = mesh.triangles[number];
     for (std::size_t i = 0; i < 3; ++i) {
       const std::uint64_t a = t[i];
       const std::uint64_t b = t[(i + 1) % 3];

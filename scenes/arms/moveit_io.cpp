@@ -420,8 +420,7 @@ class MoveItReader {
   void take_attached(const Node& attached) {
     expect_keys(attached, "what is attached", {"link_name", "object", "touch_links", "detach_posture", "weight"});
     const std::string link = word(needed(attached, "link_name"), "link_name");
-    std::vector<std::string> touched;
-    for_each(attached, "touch_links", [&](const Node& n) { touched.push_back(word(n, "touch_links")); });
+    std::vector<std::string> touched = words(attached, "touch_links");
     const Node object = needed(attached, "object");
     const Eigen::Isometry3d frame = frame_on_link(link, object);
     std::vector<AttachedSolid>& all = arm().attached;

@@ -149,7 +149,8 @@ class ArmModelMaker {
 
   ArmModel make(const XmlFile* srdf) {
     model_.name = tree_.xml.root().attribute("name").value();
-    check_said();
+    for (const auto& [name, place] : files_.said)
+      if (!is_known(name)) throw InputError(place, fmt::format("{} has no link of this name", files_.urdf), name);
     choose_variables();
     narrow_variables();
     hold_joints();
@@ -287,10 +288,6 @@ class ArmModelMaker {
     return tree_.link_named(std::string(name)) != no_urdf_part ||
            std::ranges::any_of(files_.attached, [&](const AttachedSolid& a) { return a.solid.name == name; });
   }
-  void check_said() const {
-    for (const auto& [name, place] : files_.said)
-      if (!is_known(name)) throw InputError(place, fmt::format("{} has no link of this name", files_.urdf), name);
-  }
 
   void place_links(std::size_t tool) {
     const std::vector<bool> matters = links_that_matter(tool);
@@ -426,7 +423,6 @@ class ArmModelMaker {
   /// Numbers of links that may touch, the lower first; those of one's own name too.
   using Allowed = std::set<std::pair<std::size_t, std::size_t>>;
   static constexpr std::size_t bytes_a_pair = 64;
-  static std::pair<std::size_t, std::size_t> ordered(std::size_t a, std::size_t b) { return std::minmax(a, b); }
 
   void pair_links(const XmlFile* srdf) {
     const std::size_t count = model_.links.size();
@@ -439,21 +435,19 @@ class ArmModelMaker {
       return found != named.end() ? std::span<const std::size_t>(found->second) : std::span<const std::size_t>();
     };
     Allowed allowed;
-    const auto allow = [&](std::string_view one, std::string_view other) {
-      const auto others = numbers_named(other);
-      for (const std::size_t a : numbers_named(one)) {
+    const auto allow_numbers = [&](std::span<const std::size_t> some, std::span<const std::size_t> others) {
+      for (const std::size_t a : some) {
         execution_.reserve(others.size() * bytes_a_pair);
-        for (const std::size_t b : others) allowed.insert(ordered(a, b));
+        for (const std::size_t b : others) allowed.insert(std::minmax(a, b));
       }
+    };
+    const auto allow = [&](std::string_view one, std::string_view other) {
+      allow_numbers(numbers_named(one), numbers_named(other));
     };
     if (srdf != nullptr) allow_by_srdf(*srdf, allow);
     for (const auto& [one, other] : files_.allowed) allow(one, other);
     for (std::size_t i = own; i < count; ++i) {
-      for (const std::string& link : files_.attached[i - own].may_touch) {
-        const auto others = numbers_named(link);
-        execution_.reserve(others.size() * bytes_a_pair);
-        for (const std::size_t a : others) allowed.insert(ordered(a, i));
-      }
+      for (const std::string& link : files_.attached[i - own].may_touch) allow_numbers({&i, 1}, numbers_named(link));
     }
     allow_neighbours(allowed);
     for (std::size_t a = 0; a < count; ++a) {
@@ -492,7 +486,7 @@ class ArmModelMaker {
       if (nearest[joint.below] == no_urdf_part) {
         nearest[joint.below] = above;
       } else if (above != no_urdf_part) {
-        allowed.insert(ordered(above, nearest[joint.below]));
+        allowed.insert(std::minmax(above, nearest[joint.below]));
       }
     }
   }

@@ -146,8 +146,11 @@ class PgmTokens {
       : name_(file.name()), rest_(file.bytes().substr(2)), execution_(execution) {}
 
   std::uint32_t number(std::string_view what, std::uint32_t least, std::uint32_t most) {
+    constexpr std::size_t longest = 64;  // no number is longer, and a message shows no more
     skip();
-    const std::string_view word = rest_.substr(0, word_length());
+    std::size_t length = 0;
+    while (length < std::min(rest_.size(), longest) && !is_space(rest_[length]) && rest_[length] != '#') ++length;
+    const std::string_view word = rest_.substr(0, length);
     const auto value = scene_text::number_in_full<std::uint32_t>(word);
     if (!value || *value < least || *value > most) {
       scene_text::Place{name_, line_}.fail(fmt::format("expected {}, {} to {}", what, least, most),
@@ -173,13 +176,6 @@ class PgmTokens {
         return;
       }
     }
-  }
-  /// No number is longer than that, and a message shows no more.
-  std::size_t word_length() const {
-    constexpr std::size_t longest = 64;
-    std::size_t n = 0;
-    while (n < std::min(rest_.size(), longest) && !is_space(rest_[n]) && rest_[n] != '#') ++n;
-    return n;
   }
 
   const std::string& name_;
@@ -340,7 +336,6 @@ std::optional<Vec2> opening(const OccupancyMap& map, std::uint32_t y) {
 
 OccupancyMap read_maze_image(const InputFile& file, const Execution& execution) {
   OccupancyMap map;
-  map.format = MapFormat::image;
   map.source = file.name();
   ImageHeader header;
   const auto begin = [&](const ImageHeader& read) {

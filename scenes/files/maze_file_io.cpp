@@ -269,13 +269,9 @@ std::optional<MazeHint> size_of(std::span<const WallOf<T>> walls) {
   const double rows = walls[1].y1 - 0.5;
   const auto is_side = [](double x) { return x >= 1 && x <= MazeFile::most_side && x == std::floor(x); };
   if (!is_side(cols) || !is_side(rows)) return std::nullopt;
-  const auto right = static_cast<T>(cols + 0.5);
-  const auto top = static_cast<T>(rows + 0.5);
-  constexpr T low = 0.5;
-  const WallOf<T> outline[] = {
-      {low, low, right, low}, {low, top, right, top}, {low, low + 1, low, top}, {right, low, right, top - 1}};
-  if (!std::equal(std::begin(outline), std::end(outline), walls.begin())) return std::nullopt;
-  return MazeHint{static_cast<std::uint32_t>(rows), static_cast<std::uint32_t>(cols)};
+  const MazeHint maze{static_cast<std::uint32_t>(rows), static_cast<std::uint32_t>(cols)};
+  const auto outline = maze_outline<WallOf<T>>(maze.rows, maze.cols);
+  return std::equal(outline.begin(), outline.end(), walls.begin()) ? std::optional(maze) : std::nullopt;
 }
 
 /// With the row below the first.
@@ -300,8 +296,7 @@ NpyMaze::NpyMaze(const InputFile& file, MazeHint maze, const Execution& executio
       maze_(maze),
       rows_(cell_rows(maze, held)),
       bits_(empty_maze(rows_, maze.cols, execution)),
-      cells_(maze.rows, maze.cols, bits_.data(), {}, CellBits::usual_side_log2,
-             static_cast<std::uint32_t>(rows_.first)) {
+      cells_(maze.rows, maze.cols, bits_.data(), {}, static_cast<std::uint32_t>(rows_.first)) {
   for (std::uint32_t row = 0; row + 1 < maze.rows; ++row) stand(maze.cols - 1, row, CellTile::right_wall);
   for (std::uint32_t col = 0; col < maze.cols; ++col) stand(col, maze.rows - 1, CellTile::upper_wall);
   if (execution.progress != nullptr) execution.progress->begin("read", array_.walls);

@@ -23,8 +23,9 @@ namespace warren {
 
 Scene read_scene_text(const InputFile& file, const Execution& execution);
 using SceneTextSink = std::function<void(std::string_view)>;
-/// Hands everything that the scene holds to `write`, piece by piece.
-void write_scene_text(const Scene& scene, const SceneTextSink& write, const Execution& execution);
+/// Hands everything that the scene holds to `write`, piece by piece. path: of the file, beside which masks are.
+void write_scene_text(const Scene& scene, const SceneTextSink& write, const Execution& execution,
+                      const std::string& path = "-");
 /// Writes everything that the scene holds.
 void write_scene_text(const Scene& scene, const std::string& path, const Execution& execution);
 

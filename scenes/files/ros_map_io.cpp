@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <numeric>
 #include <system_error>
 #include <utility>
@@ -304,7 +305,7 @@ void take_polygons(const PriceMask& mask, const InputFile& file, Prices& prices,
   if (mask.factor && !scene.seams.empty()) {
     throw InputError(file.name(), "has polygons with holes, whose cuts would be free of the factor; a mask takes one");
   }
-  for (KeepOut& area : scene.prices.keep_out) scene.polygons.push_back({std::move(area.corners), area.line});
+  std::ranges::move(scene.prices.keep_out, std::back_inserter(scene.polygons));
   if (scene.polygons.empty()) {
     throw InputError(file.name(),
                      "has no polygons to keep out of; a GeoJSON, a scene with `polygon` or `keep-out` lines or a map "
@@ -314,7 +315,7 @@ void take_polygons(const PriceMask& mask, const InputFile& file, Prices& prices,
     if (mask.factor) {
       push_asked(prices.areas, {*mask.factor, std::move(polygon.corners), polygon.line}, execution);
     } else {
-      push_asked(prices.keep_out, {std::move(polygon.corners), polygon.line}, execution);
+      push_asked(prices.keep_out, std::move(polygon), execution);
     }
   }
 }

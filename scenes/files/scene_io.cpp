@@ -436,12 +436,6 @@ void append_named(std::string& text, std::string_view item, const NamedState& st
   text += '\n';
 }
 
-void append_pose(std::string& text, const Eigen::Isometry3d& pose) {
-  const Vec3 at = pose.translation();
-  const auto [x, y, z, w] = quaternion_of_turn(pose.linear());
-  append_line(text, "goal pose", at.x(), at.y(), at.z(), x, y, z, w);
-}
-
 /// Lines that say of an arm what its robot's line does not.
 void append_arm(std::string& text, const ArmFiles& arm) {
   for (const auto& [joint, value] : arm.held) append_line(text, "hold " + joint, value);
@@ -474,7 +468,11 @@ std::string head_of(const Scene& scene, const std::string& path) {
   for (const std::vector<double>& goal : scene.other_goals) append_item(text, "goal", goal);
   if (scene.named_start) append_named(text, "start", *scene.named_start);
   for (const NamedState& goal : scene.named_goals) append_named(text, "goal", goal);
-  if (scene.goal_pose) append_pose(text, *scene.goal_pose);
+  if (scene.goal_pose) {
+    const Vec3 at = scene.goal_pose->translation();
+    const auto [x, y, z, w] = quaternion_of_turn(scene.goal_pose->linear());
+    append_line(text, "goal pose", at.x(), at.y(), at.z(), x, y, z, w);
+  }
   if (scene.grid) append_line(text, "grid", scene.grid->cell, scene.grid->angles);
   if (scene.arm) append_arm(text, *scene.arm);
   const auto name = [&](const std::string& file) { return name_beside(path, file); };
@@ -497,15 +495,22 @@ void append_wall(std::string& text, const Segment& s) {
   text.push_back('\n');
 }
 
+}  // namespace
+
+Scene read_scene_text(const InputFile& file, const Execution& execution) { return SceneReader(file, execution).read(); }
+
 /// Shortest decimal numbers that read back the same, half-integers (mazes) by integer digits. Walls are formatted in
-/// parallel and written in their order. `path`: of the file, beside which masks are. Sink: as write_in_pieces has it.
-template <class Sink>
-void write_text(const Scene& scene, const std::string& path, Sink& to, const Execution& execution) {
-  to.write(head_of(scene, path));
+/// parallel and written in their order.
+void write_scene_text(const Scene& scene, const SceneTextSink& write, const Execution& execution,
+                      const std::string& path) {
+  struct {
+    const SceneTextSink& write;
+  } to{write};
+  write(head_of(scene, path));
   write_in_pieces(to, scene.polygons.size(), line_grain / 16, execution, [&](Range r, std::string& text) {
     for (std::size_t i = r.first; i < r.last; ++i) append_polygon(text, scene.polygons[i].corners, execution);
   });
-  to.write(solids_of(scene));
+  write(solids_of(scene));
   scene.walls.visit([&](auto walls) {
     write_in_pieces(to, walls.size(), line_grain, execution, [&](Range r, std::string& text) {
       for (std::size_t i = r.first; i < r.last; ++i) append_wall(text, walls[i].segment());
@@ -513,21 +518,11 @@ void write_text(const Scene& scene, const std::string& path, Sink& to, const Exe
   });
 }
 
-}  // namespace
-
-Scene read_scene_text(const InputFile& file, const Execution& execution) { return SceneReader(file, execution).read(); }
-
-void write_scene_text(const Scene& scene, const SceneTextSink& write, const Execution& execution) {
-  struct {
-    const SceneTextSink& write;
-  } to{write};
-  write_text(scene, "-", to, execution);
-}
-
 void write_scene_text(const Scene& scene, const std::string& path, const Execution& execution) {
   if (execution.progress != nullptr) execution.progress->begin("write", scene.polygons.size() + scene.walls.size());
   OutputFile file(path, execution);
-  write_text(scene, path, file, execution);
+  write_scene_text(
+      scene, [&](std::string_view text) { file.write(text); }, execution, path);
   file.commit();
 }
 

@@ -7,9 +7,12 @@
 #include <cassert>
 #include <cstring>
 #include <limits>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "parallel/chunks.hpp"
+#include "scenes/mazes/maze_generator.hpp"
 #include "scenes/scene/scene.hpp"
 
 namespace warren {
@@ -119,87 +122,40 @@ class Strip {
   std::vector<std::uint8_t> bytes_;
 };
 
-/// The wall of a bit that for_each_word() gave.
-Segment wall_of(double x, std::size_t first_row, unsigned bit) {
+/// The wall of the lowest of the bits that for_each_word() gave.
+DoubleWall wall_of(double x, std::size_t first_row, std::uint64_t bits) {
+  const auto bit = static_cast<unsigned>(std::countr_zero(bits));
   const double upper = static_cast<double>(bit & 1U);
   const double high = static_cast<double>(first_row + (bit >> 1U)) + 1.5;
-  return {{x - upper, high - 1.0 + upper}, {x, high}};
+  return {x - upper, high - 1.0 + upper, x, high};
 }
 
-/// Chunks of the hash, wall by wall.
-struct Chunks {
-  std::vector<std::uint64_t> whole;
-  WallFold open;  ///< the last one
-  std::size_t open_walls = 0;
-
-  void add(const Segment& wall) {
-    open.add(wall);
-    if (++open_walls == grain) close();
-  }
-  /// As add() for each of the bits, from the lowest.
-  void add(double x, std::size_t first_row, std::uint64_t bits) {
-    const auto count = static_cast<std::size_t>(std::popcount(bits));
-    if (open_walls + count >= grain) {
-      for (; bits != 0; bits &= bits - 1) add(wall_of(x, first_row, static_cast<unsigned>(std::countr_zero(bits))));
-      return;
-    }
-    WallFold fold = open;  // in registers
-    for (; bits != 0; bits &= bits - 1) fold.add(wall_of(x, first_row, static_cast<unsigned>(std::countr_zero(bits))));
-    open = fold;
-    open_walls += count;
-  }
-  void close() {
-    whole.push_back(open.value(open_walls));
-    open = {};
-    open_walls = 0;
-  }
-};
-
-/// The walls of some strips: those before the first chunk that begins in them, and chunks.
+/// The walls of some strips: those before the first chunk of the hash that begins in them, and chunks.
 struct Part {
-  std::vector<Segment> head;
-  Chunks chunks;
+  std::vector<DoubleWall> head;
+  std::vector<std::uint64_t> whole;  ///< values of chunks
+  WallsChunk open;                   ///< the last one
 
   /// first: the number of its first wall among all.
   void add(Strip& strip, std::size_t first) {
     const std::size_t before = (grain - first % grain) % grain;
     head.reserve(before);
     strip.for_each_word([&](double x, std::size_t row, std::uint64_t bits) {
-      for (; bits != 0 && head.size() < before; bits &= bits - 1) {
-        head.push_back(wall_of(x, row, static_cast<unsigned>(std::countr_zero(bits))));
+      for (; bits != 0 && head.size() < before; bits &= bits - 1) head.push_back(wall_of(x, row, bits));
+      const auto count = static_cast<std::size_t>(std::popcount(bits));
+      if (open.walls + count < grain) {
+        WallsChunk chunk = open;  // in registers
+        for (; bits != 0; bits &= bits - 1) chunk.fold(wall_of(x, row, bits).segment());
+        chunk.walls += count;
+        open = chunk;
       }
-      chunks.add(x, row, bits);
+      for (; bits != 0; bits &= bits - 1) {
+        open.fold(wall_of(x, row, bits).segment());
+        if (++open.walls == grain) whole.push_back(std::exchange(open, {}).value());
+      }
     });
   }
 };
-
-std::vector<Segment> outline(const CellWallSource& cells) {
-  const double right = cells.cols() + 0.5;
-  const double top = cells.rows() + 0.5;
-  return {{{0.5, 0.5}, {right, 0.5}},
-          {{0.5, top}, {right, top}},
-          {{0.5, 1.5}, {0.5, top}},
-          {{right, 0.5}, {right, top - 1}}};
-}
-
-std::string joined(std::size_t walls, const std::vector<Segment>& frame, const std::vector<Part>& parts) {
-  WallsHash hash(walls);
-  Chunks all;
-  const auto add = [&](const std::vector<Segment>& some) {
-    for (const Segment& wall : some) all.add(wall);
-  };
-  add(frame);
-  for (const Part& part : parts) {
-    add(part.head);
-    if (part.chunks.whole.empty() && part.chunks.open_walls == 0) continue;
-    all.whole.insert(all.whole.end(), part.chunks.whole.begin(), part.chunks.whole.end());
-    all.open = part.chunks.open;
-    all.open_walls = part.chunks.open_walls;
-  }
-  if (all.open_walls > 0) all.close();
-  for (const std::uint64_t chunk : all.whole) hash.add(chunk);
-  return hash.text();
-}
 
 }  // namespace
 
@@ -255,8 +211,8 @@ std::unique_ptr<CellWallReader> CellBits::reader() const { return std::make_uniq
 HashedCells hash_of_cells(const CellWallSource& cells, const Execution& execution) {
   const std::size_t strips = cells.tile_cols();
   const std::size_t size = std::max<std::size_t>(1, (strips + most_parts - 1) / most_parts);
-  execution.reserve(most_parts * grain * sizeof(Segment));
-  const std::vector<Segment> frame = outline(cells);
+  execution.reserve(most_parts * grain * sizeof(DoubleWall));
+  const auto frame = maze_outline<DoubleWall>(cells.rows(), cells.cols());
   std::vector<std::size_t> first(strips + 1, frame.size());
   for_chunks(strips, size, execution, [&](Range r) {
     Strip strip(cells);
@@ -271,7 +227,14 @@ HashedCells hash_of_cells(const CellWallSource& cells, const Execution& executio
       parts[r.first / size].add(strip, first[r.first]);
     }
   });
-  return {joined(first.back(), frame, parts), first.back()};
+  WallsHash hash(first.back());
+  hash.add(std::span<const DoubleWall>(frame), execution);
+  for (const Part& part : parts) {
+    hash.add(std::span<const DoubleWall>(part.head), execution);
+    for (const std::uint64_t chunk : part.whole) hash.add(chunk);
+    if (part.open.walls > 0) hash.begin(part.open);
+  }
+  return {hash.text(), first.back()};
 }
 
 }  // namespace warren

@@ -30,11 +30,10 @@ class CellBits : public CellWallSource {
   /// Called for bytes first .. last - 1 that a reader has looked at and may not look at again.
   using Forget = std::function<void(std::size_t first, std::size_t last)>;
 
-  /// side_log2 >= 2. first_row: that of the first bits; no tile is read that needs those of a row below, or above the
-  /// last that is held.
-  CellBits(std::uint32_t rows, std::uint32_t cols, const std::uint8_t* bits, Forget forget = {},
-           unsigned side_log2 = usual_side_log2, std::uint32_t first_row = 0)
-      : CellWallSource(rows, cols, side_log2), bits_(bits), forget_(std::move(forget)), first_row_(first_row) {}
+  /// first_row: that of the first bits; no tile is read that needs those of a row below, or above the last that is
+  /// held.
+  CellBits(std::uint32_t rows, std::uint32_t cols, const std::uint8_t* bits, Forget forget, std::uint32_t first_row = 0)
+      : CellWallSource(rows, cols, usual_side_log2), bits_(bits), forget_(std::move(forget)), first_row_(first_row) {}
   std::unique_ptr<CellWallReader> reader() const override;
 
  private:

@@ -216,32 +216,24 @@ void carve_wilson(MazeCells& cells, std::uint64_t seed, const Execution& executi
   }
 }
 
-/// All interior walls: twice the index of the cell that owns the wall, plus 1 for its upper one.
+/// Walls are numbered by twice the index of the cell that owns them, plus 1 for its upper one.
 template <class Id>
-RawVector<Id> wall_numbers(const MazeCells& cells, const Execution& execution) {
-  const std::uint64_t count = 2 * cells.cell_count() - cells.rows() - cells.cols();
-  RawVector<Id> walls(count);
-  std::size_t n = 0;
+void carve(MazeCells& cells, std::uint64_t seed, const Execution& execution) {
+  execution.reserve((2 * cells.cell_count() + cells.bytes().size()) * sizeof(Id));
+  RawVector<Id> walls(2 * cells.cell_count() - cells.rows() - cells.cols());  // the interior ones
+  std::size_t left = 0;
   for (std::uint32_t col = 0; col < cells.cols(); ++col) {
     for (std::uint32_t row = 0; row < cells.rows(); ++row) {
       const std::size_t i = cells.index(col, row);
       if ((i & 0xffffU) == 0) execution.check();
-      if (col + 1 < cells.cols()) walls[n++] = static_cast<Id>(2 * i);
-      if (row + 1 < cells.rows()) walls[n++] = static_cast<Id>(2 * i + 1);
+      if (col + 1 < cells.cols()) walls[left++] = static_cast<Id>(2 * i);
+      if (row + 1 < cells.rows()) walls[left++] = static_cast<Id>(2 * i + 1);
     }
   }
-  return walls;
-}
-
-template <class Id>
-void carve(MazeCells& cells, std::uint64_t seed, const Execution& execution) {
-  execution.reserve((2 * cells.cell_count() + cells.bytes().size()) * sizeof(Id));
-  RawVector<Id> walls = wall_numbers<Id>(cells, execution);
   RawVector<Id> regions = single_regions<Id>(cells.bytes().size(), execution);
   const Steps at(cells);
   SequentialRng rng(seed);
   StepPoll poll(execution);
-  std::size_t left = walls.size();
   for (std::uint64_t carved = 1; carved < cells.cell_count();) {
     poll.step(carved);
     const std::size_t drawn = rng.below(left);
@@ -258,23 +250,6 @@ void carve(MazeCells& cells, std::uint64_t seed, const Execution& execution) {
 /// Cells, numbered column by column from 0, and their place counted from 1 as the course does.
 struct Place {
   std::uint64_t col, row;
-};
-
-/// Square blocks of side min(rows, cols) / parts, a rational number: parts is the least odd number >= 3 that makes it
-/// 12 at most. Even blocks prefer to open upwards and downwards, odd ones sideways.
-class Blocks {
- public:
-  Blocks(std::uint64_t rows, std::uint64_t cols) : side_(std::min(rows, cols)) {
-    while (side_ > 12 * parts_) parts_ += 2;
-    blocks_across_ = block_of(cols);
-  }
-  bool is_even(Place p) const { return (block_of(p.row) * blocks_across_ + block_of(p.col)) % 2 == 0; }
-
- private:
-  std::uint64_t block_of(std::uint64_t k) const { return (k * parts_ + side_ - 1) / side_; }
-  std::uint64_t side_;
-  std::uint64_t parts_ = 3;
-  std::uint64_t blocks_across_ = 0;
 };
 
 /// Randomised Kruskal: the interior walls in random order, each taken out if it parts two regions. Many short dead
@@ -297,10 +272,16 @@ void carve_course(MazeCells& cells, std::uint64_t seed, const Execution& executi
   execution.reserve(cells.cell_count() * sizeof(std::uint32_t));
   const Steps at(cells);
   RawVector<std::uint32_t> regions = single_regions<std::uint32_t>(cells.cell_count(), execution);
-  const Blocks blocks(cells.rows(), cells.cols());
   SequentialRng rng(seed);
   StepPoll poll(execution);
   const std::uint32_t rows = cells.rows();
+  // Square blocks of side min(rows, cols) / parts, a rational number: parts is the least odd number >= 3 that makes it
+  // 12 at most. Even blocks prefer to open upwards and downwards, odd ones sideways.
+  const std::uint64_t side = std::min(rows, cells.cols());
+  std::uint64_t parts = 3;
+  while (side > 12 * parts) parts += 2;
+  const auto block_of = [&](std::uint64_t k) { return (k * parts + side - 1) / side; };
+  const std::uint64_t blocks_across = block_of(cells.cols());
   const auto place = [&](std::uint32_t cell) { return Place{cell / rows + 1U, cell % rows + 1U}; };
   const auto draw_cell = [&] {
     constexpr int draws = 15;
@@ -323,7 +304,8 @@ void carve_course(MazeCells& cells, std::uint64_t seed, const Execution& executi
     constexpr std::array<unsigned, 4> plain{2, 0, 3, 1};  // the course's 1 .. 4: -x, +x, -y, +y
     const std::uint64_t drawn = rng.below(8);
     if (drawn < 4) return plain[drawn];
-    const unsigned backward = blocks.is_even(p) ? 3 : 2;
+    const std::uint64_t block = block_of(p.row) * blocks_across + block_of(p.col);
+    const unsigned backward = block % 2 == 0 ? 3 : 2;
     return drawn < 6 ? backward : backward ^ 2U;
   };
   for (std::uint64_t carved = 1; carved < cells.cell_count();) {
@@ -421,8 +403,7 @@ std::optional<Piece> piece_of(const Segment& wall, const Box& outline) {
   return {};
 }
 
-/// In order of sides and places.
-RawVector<Piece> pieces_of(const WallSet& walls, const Box& outline, const Execution& execution) {
+bool has_outline(const WallSet& walls, const Box& outline, const Execution& execution) {
   const auto in_chunk = [&](Range r) {
     RawVector<Piece> found;
     for (std::size_t i = r.first; i < r.last; ++i) {
@@ -433,14 +414,10 @@ RawVector<Piece> pieces_of(const WallSet& walls, const Box& outline, const Execu
   RawVector<Piece> pieces =
       joined_parts(parts_of_chunks(walls.size(), outline_grain, execution, in_chunk), execution.quiet());
   polled_sort(pieces.begin(), pieces.end(), execution);
-  return pieces;
-}
-
-bool has_outline(const WallSet& walls, const Box& outline, const Execution& execution) {
   const double low[4] = {outline.min.x, outline.min.x, outline.min.y + 1.0, outline.min.y};
   const double high[4] = {outline.max.x, outline.max.x, outline.max.y, outline.max.y - 1.0};
   double covered[4] = {low[0], low[1], low[2], low[3]};
-  for (const Piece& piece : pieces_of(walls, outline, execution)) {
+  for (const Piece& piece : pieces) {
     if (piece.low < low[piece.side] || piece.high > high[piece.side]) return false;  // it closes a door
     if (piece.low > covered[piece.side]) return false;                               // a gap
     covered[piece.side] = std::max(covered[piece.side], piece.high);

@@ -100,6 +100,15 @@ MazeCells generate_maze(const MazeOptions& options, const Execution& execution);
 /// 2^18 rows and columns, floats up to 2^23, doubles beyond.
 WallSet maze_walls(const MazeCells& cells, bool merged, const Execution& execution);
 
+/// The outline's walls as maze_walls() has them, open at the two doors. Of sides that a Wall's numbers hold.
+template <class Wall>
+std::array<Wall, 4> maze_outline(std::uint32_t rows, std::uint32_t cols) {
+  const double right = cols + 0.5;
+  const double top = rows + 0.5;
+  return {Wall::of(0.5, 0.5, right, 0.5), Wall::of(0.5, top, right, top), Wall::of(0.5, 1.5, 0.5, top),
+          Wall::of(right, 0.5, right, top - 1.0)};
+}
+
 /// Bytes of a wall that maze_walls() makes for so many rows and columns.
 std::size_t maze_wall_bytes(std::uint32_t rows, std::uint32_t cols);
 

@@ -172,12 +172,6 @@ void write_merged(const WallStarts& starts, const Run& run, WallWriter<Wall>& wr
   }
 }
 
-template <class Wall>
-std::array<Wall, 4> outline(std::uint32_t rows, std::uint32_t cols) {
-  return {wall_on_lines<Wall>(0, 0, cols, 0), wall_on_lines<Wall>(0, rows, cols, 0),
-          wall_on_lines<Wall>(0, 1, 0, rows - 1), wall_on_lines<Wall>(cols, 0, 0, rows - 1)};
-}
-
 /// Where the walls of each chunk of these cells stand, behind the first `before`; and the end.
 std::vector<std::size_t> places_of(const WallStarts& starts, Range some, std::size_t before,
                                    const Execution& execution) {
@@ -225,7 +219,7 @@ template <class Wall>
 bool has_walls_as(std::span<const Wall> walls, const MazeCells& cells, const Execution& execution) {
   const WallStarts starts{cells, false};
   const std::vector<std::size_t> places = places_of(starts, {0, cells.cell_count()}, 4, execution);
-  const std::array<Wall, 4> frame = outline<Wall>(cells.rows(), cells.cols());
+  const auto frame = maze_outline<Wall>(cells.rows(), cells.cols());
   if (walls.size() != places.back() || !std::equal(frame.begin(), frame.end(), walls.begin())) return false;
   const std::size_t first_other = first_in_chunks(cells.cell_count(), wall_grain, execution, [&](Range r) {
     const std::size_t* const place = &places[r.first / wall_grain];
@@ -241,7 +235,7 @@ template <class Wall>
 WallSet walls_as(const MazeCells& cells, bool merged, const Execution& execution) {
   const WallStarts starts{cells, merged};
   const std::vector<std::size_t> places = places_of(starts, {0, cells.cell_count()}, 4, execution);
-  const std::array<Wall, 4> frame = outline<Wall>(cells.rows(), cells.cols());
+  const auto frame = maze_outline<Wall>(cells.rows(), cells.cols());
   execution.reserve(places.back() * sizeof(Wall));
   RawVector<Wall> walls(places.back());
   std::copy(frame.begin(), frame.end(), walls.begin());
@@ -251,8 +245,6 @@ WallSet walls_as(const MazeCells& cells, bool merged, const Execution& execution
 
 constexpr std::size_t rows_grain = std::size_t{1} << 14;
 constexpr std::size_t cells_a_piece = std::size_t{1} << 20;
-
-Execution quietly(const Execution& execution) { return {execution.threads, execution.deadline}; }
 
 std::uint32_t width_of_strip(const CellWallSource& maze, std::size_t strip) {
   const std::uint32_t side = 1U << maze.side_log2();
@@ -274,26 +266,24 @@ struct WallStrip {
 /// Calls visit(strip) for each strip of a maze, from the left.
 template <class Visit>
 void for_each_strip(const CellWallSource& maze, const Execution& execution, const Visit& visit) {
-  const PagePool pages;  // each strip is made of those of the strip before
-  WallStrip strip{0, 0, MazeCells(maze.rows(), width_of_strip(maze, 0), execution)};
-  copy_tiles(maze, 0, maze.tile_cols(), 0, strip.cells, execution);
-  for (;;) {
+  const PagePool pages;            // each strip is made of those of the strip before
+  std::vector<std::uint8_t> last;  // column of cells of the strip before
+  execution.reserve(maze.rows());
+  for (std::size_t number = 0; number < maze.tile_cols(); ++number) {
+    const std::uint32_t lead = number > 0 ? 1 : 0;
+    WallStrip strip{number, lead, MazeCells(maze.rows(), width_of_strip(maze, number) + lead, execution)};
+    std::copy(last.begin(), last.end(), strip.cells.bytes().data() + strip.cells.index(0, 0));
+    copy_tiles(maze, number, maze.tile_cols(), strip.first_col(maze), strip.cells, execution);
     visit(strip);
-    const std::size_t number = strip.number + 1;
-    if (number == maze.tile_cols()) return;
-    WallStrip next{number, 1, MazeCells(maze.rows(), width_of_strip(maze, number) + 1, execution)};
-    const std::span<const std::uint8_t> last = std::span<const std::uint8_t>(strip.cells.bytes())
-                                                   .subspan(strip.cells.index(strip.cells.cols() - 1, 0), maze.rows());
-    std::copy(last.begin(), last.end(),
-              next.cells.bytes().begin() + static_cast<std::ptrdiff_t>(next.cells.index(0, 0)));
-    copy_tiles(maze, number, maze.tile_cols(), next.first_col(maze), next.cells, execution);
-    strip = std::move(next);
+    const auto column = strip.cells.bytes().subspan(strip.cells.index(strip.cells.cols() - 1, 0), maze.rows());
+    last.assign(column.begin(), column.end());
   }
 }
 
 /// By row, how many of its own cells an upper wall at a strip's left end runs along.
 void note_runs(const WallStrip& strip, std::span<std::uint16_t> runs, const Execution& execution) {
-  for_each_index<std::uint32_t>(runs.size(), rows_grain, quietly(execution), [&](std::uint32_t row) {
+  const Execution quiet{execution.threads, execution.deadline};
+  for_each_index<std::uint32_t>(runs.size(), rows_grain, quiet, [&](std::uint32_t row) {
     std::uint32_t col = strip.lead;
     while (col < strip.cells.cols() && strip.cells.wall_above(col, row)) ++col;
     runs[row] = static_cast<std::uint16_t>(col - strip.lead);
@@ -338,43 +328,24 @@ bool all_on_grid_exactly(std::span<const Wall> walls, MazeHint hint) {
   });
 }
 
-/// A wall in grid lines, lower ends first.
-struct GridWall {
-  std::int64_t x1, y1, x2, y2;
-};
-
-/// Of a wall that lies on the grid.
+/// Sets the bits of the cells along a wall on the grid; walls on the outline are no cells' business. Returns how many.
 template <class T>
-GridWall grid_wall(const WallOf<T>& w) {
+std::int64_t raise(const WallOf<T>& w, MazeHint hint, MazeCells& cells) {
   const auto line = [](T x) { return static_cast<std::int64_t>(x - T{0.5}); };
-  return {line(std::min(w.x1, w.x2)), line(std::min(w.y1, w.y2)), line(std::max(w.x1, w.x2)),
-          line(std::max(w.y1, w.y2))};
-}
-
-/// Sets the bits of the cells along a wall; walls on the outline are no cells' business. Returns how many.
-std::int64_t raise(const GridWall& w, MazeHint hint, MazeCells& cells) {
+  const std::int64_t x = line(std::min(w.x1, w.x2));
+  const std::int64_t y = line(std::min(w.y1, w.y2));
   const bool upright = w.x1 == w.x2;
-  const std::int64_t length = (w.x2 - w.x1) + (w.y2 - w.y1);
-  const bool inside = upright ? w.x1 > 0 && w.x1 < hint.cols : w.y1 > 0 && w.y1 < hint.rows;
+  const std::int64_t length = (line(std::max(w.x1, w.x2)) - x) + (line(std::max(w.y1, w.y2)) - y);
+  const bool inside = upright ? x > 0 && x < hint.cols : y > 0 && y < hint.rows;
   if (!inside || length == 0) return 0;
-  const auto col = static_cast<std::uint32_t>(w.x1 - (upright ? 1 : 0));
-  const auto row = static_cast<std::uint32_t>(w.y1 - (upright ? 0 : 1));
+  const auto col = static_cast<std::uint32_t>(x - (upright ? 1 : 0));
+  const auto row = static_cast<std::uint32_t>(y - (upright ? 0 : 1));
   const std::uint8_t bit = upright ? MazeCells::right_wall : MazeCells::upper_wall;
   std::uint8_t* const first = cells.bytes().data() + cells.index(col, row);
   *first |= bit;  // most walls are a unit long, and their direction is a coin toss: no branch decides on it
   const std::size_t step = upright ? 1 : cells.stride();
   for (std::int64_t i = 1; i < length; ++i) first[static_cast<std::size_t>(i) * step] |= bit;
   return length;
-}
-
-/// Takes out all interior walls; the outline and the gaps keep theirs.
-void open_all(MazeCells& cells, const Execution& execution) {
-  const std::size_t grain = std::max<std::size_t>(1, flood_grain / cells.stride());
-  for_each_index<std::uint32_t>(cells.cols(), grain, execution, [&](std::uint32_t col) {
-    std::uint8_t* const first = cells.bytes().data() + cells.index(col, 0);
-    std::fill_n(first, cells.rows(), col + 1 < cells.cols() ? std::uint8_t{0} : MazeCells::right_wall);
-    first[cells.rows() - 1] |= MazeCells::upper_wall;
-  });
 }
 
 }  // namespace
@@ -429,7 +400,7 @@ std::vector<std::uint32_t> WallStrips::beyond(std::size_t strip) const {
 template <class Wall, class Take>
 void WallStrips::for_each_piece(const Take& take, const Execution& execution) const {
   execution.reserve(merged_ ? cells_.rows() * sizeof(std::uint32_t) : 0);
-  const std::array<Wall, 4> frame = outline<Wall>(cells_.rows(), cells_.cols());
+  const auto frame = maze_outline<Wall>(cells_.rows(), cells_.cols());
   take(std::span<const Wall>(frame));
   RawVector<Wall> walls;
   for_each_strip(cells_, execution, [&](const WallStrip& strip) {
@@ -441,7 +412,7 @@ void WallStrips::for_each_piece(const Take& take, const Execution& execution) co
       const std::vector<std::size_t> places = places_of(starts, some, 0, execution);
       if (places.back() > walls.capacity()) execution.reserve(places.back() * sizeof(Wall));
       walls.resize(places.back());
-      write_walls(starts, some, places, walls.data(), quietly(execution));
+      write_walls(starts, some, places, walls.data(), {execution.threads, execution.deadline});
       take(std::span<const Wall>(walls));
     }
   });
@@ -474,11 +445,16 @@ MazeCells cells_of_walls(const WallSet& walls, MazeHint hint, const Execution& e
                      fmt::format("{} {} {} {}", s.a.x, s.a.y, s.b.x, s.b.y));
   }
   MazeCells cells(hint.rows, hint.cols, execution);
-  open_all(cells, execution);
+  const std::size_t grain = std::max<std::size_t>(1, flood_grain / cells.stride());
+  for_each_index<std::uint32_t>(cells.cols(), grain, execution, [&](std::uint32_t col) {  // no interior walls yet
+    std::uint8_t* const first = cells.bytes().data() + cells.index(col, 0);
+    std::fill_n(first, cells.rows(), col + 1 < cells.cols() ? std::uint8_t{0} : MazeCells::right_wall);
+    first[cells.rows() - 1] |= MazeCells::upper_wall;
+  });
   walls.visit([&](auto span) {  // serial: neighbours share bytes, and the bytes are what takes the time
     std::int64_t since_look = 0;
     for (const auto& wall : span) {
-      since_look += 1 + raise(grid_wall(unpacked(wall)), hint, cells);
+      since_look += 1 + raise(unpacked(wall), hint, cells);
       if (since_look < units_per_look) continue;
       execution.check();
       since_look = 0;

@@ -53,7 +53,6 @@ class SpanningTile {
     contract();
     collect();
     sort();
-    number_rim();
     join();
   }
 
@@ -100,7 +99,6 @@ class SpanningTile {
     std::uint32_t weight;  // its upper half
     std::uint32_t place;   // 2 * cell + direction
   };
-  using Count = std::array<std::uint32_t, 2048>;
 
   /// What the least and the greatest edges decide.
   void decide_early(const GridPiece& piece) {
@@ -134,17 +132,12 @@ class SpanningTile {
     std::fill_n(up_.begin() + static_cast<std::ptrdiff_t>(cells_), width, no_edge);
   }
 
+  /// Cells of the rim choose nothing and are not chosen.
   void find_least() {
     const std::size_t width = piece_.width;
     least_.assign(cells_ + 2 * width, 0);
     mark_single<false>({right_.data() + width, up_.data() + width, right_.data() + width - 1, up_.data()},
                        least_.data() + width, cells_);
-    cut_at_rim();
-  }
-
-  /// Cells of the rim choose nothing and are not chosen.
-  void cut_at_rim() {
-    const std::size_t width = piece_.width;
     std::uint8_t* const least = least_.data() + width;
     const auto cut = [&](unsigned side, std::size_t cell, bool has_inner, std::size_t inner) {
       if ((piece_.more & side) == 0) return;
@@ -242,7 +235,7 @@ class SpanningTile {
   }
 
   void pass(unsigned shift, std::uint32_t mask) {
-    Count count{};
+    std::array<std::uint32_t, 2048> count{};
     for (std::size_t k = 0; k < candidate_count_; ++k) ++count[candidates_[k].weight >> shift & mask];
     std::uint32_t first = 0;
     for (std::uint32_t& n : count) first += std::exchange(n, first);
@@ -265,15 +258,12 @@ class SpanningTile {
     }
   }
 
-  void number_rim() {
+  void join() {
     on_rim_.assign(cells_, off_the_rim);
     piece_.each_on_sides([&](std::uint32_t col, std::uint32_t row) {
       if (!piece_.on_rim(col, row)) return;
       on_rim_[std::size_t{row} * piece_.width + col] = static_cast<std::uint16_t>(piece_.side_number(col, row));
     });
-  }
-
-  void join() {
     rim_edges_.clear();
     const std::array<std::uint32_t, 2> offset{1, piece_.width};
     for (std::size_t k = 0; k < candidate_count_; ++k) {
@@ -318,9 +308,11 @@ class Joining {
 
   JoinedParts run(const Execution& execution) {
     JoinedParts joined;
-    RimPart& whole = joined.whole;
-    whole.at = frame();
-    number_vertices(whole.at);
+    const GridPiece& low = parts_.front().at;
+    const GridPiece& high = parts_.back().at;
+    joined.whole.at = {low.first_col, low.first_row, high.first_col + high.width - low.first_col,
+                       high.first_row + high.height - low.first_row, (low.more & 12U) | (high.more & 3U)};
+    number_vertices(joined.whole.at);
     take_edges();
     polled_sort(edges_.begin(), edges_.end(), execution,
                 [](const Edge& a, const Edge& b) { return a.weight < b.weight; });
@@ -339,13 +331,6 @@ class Joining {
     std::uint64_t weight;
     RimEdge between;  // vertices
   };
-
-  GridPiece frame() const {
-    const GridPiece& low = parts_.front().at;
-    const GridPiece& high = parts_.back().at;
-    return {low.first_col, low.first_row, high.first_col + high.width - low.first_col,
-            high.first_row + high.height - low.first_row, (low.more & 12U) | (high.more & 3U)};
-  }
 
   /// A vertex is a cell on a side of a part; on_rim_ says which of the whole's it is.
   void number_vertices(const GridPiece& whole) {
@@ -585,8 +570,7 @@ class SpanningMaze::Reader : public CellWallReader {
     }
     if (maze_.open_below_ > 0) open_loops(tile);
     if (number == 0) turn(tile, -1, 0, 0);
-    if (number + 1 == maze_.tile_count())
-      turn(tile, std::ptrdiff_t{tile.width} - 1, std::ptrdiff_t{tile.height} - 1, 0);
+    if (number + 1 == maze_.tile_count()) turn(tile, tile.width - 1, tile.height - 1, 0);
   }
 
  private:

@@ -34,8 +34,9 @@ struct FoundHull {
 /// One run of qhull, whose memory goes with it.
 class QhullRun : NotCopied {
  public:
-  /// Points, three numbers each, within [-1, 1].
-  explicit QhullRun(std::vector<double>& points) : messages_(::fmemopen(nullptr, 4096, "w"), &std::fclose) {
+  /// Points, three numbers each, within [-1, 1], and their numbers, ascending, which it refers to.
+  QhullRun(std::vector<double>& points, const HullNumbers& numbers)
+      : numbers_(numbers), messages_(::fmemopen(nullptr, 4096, "w"), &std::fclose) {
     if (!messages_) throw std::bad_alloc();
     qh_zero(&qhull_, messages_.get());
     std::array<char, 12> command{"qhull Qt Pp"};
@@ -66,7 +67,7 @@ class QhullRun : NotCopied {
 
  private:
   std::uint32_t number_of(const vertexT* vertex) {
-    return static_cast<std::uint32_t>(qh_pointid(&qhull_, vertex->point));
+    return numbers_[static_cast<std::size_t>(qh_pointid(&qhull_, vertex->point))];
   }
   /// Slivers say nothing of where outside is, and their neighbours cover them.
   void add_face(const facetT& facet, std::vector<HullFace>& faces) {
@@ -86,6 +87,7 @@ class QhullRun : NotCopied {
     faces.push_back(face);
   }
 
+  const HullNumbers& numbers_;
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> messages_;
   qhT qhull_{};
   int code_ = 0;
@@ -118,12 +120,7 @@ std::optional<FoundHull> hull_of_some(const std::vector<Vec3>& points, const Hul
     const Vec3 p = (points[i] - frame.middle) * frame.scale;
     small.insert(small.end(), {p.x(), p.y(), p.z()});
   }
-  std::optional<FoundHull> found = QhullRun(small).hull();
-  if (!found) return found;
-  for (std::uint32_t& corner : found->corners) corner = some[corner];
-  for (HullFace& face : found->faces)
-    for (std::uint32_t& corner : face) corner = some[corner];
-  return found;
+  return QhullRun(small, some).hull();
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <set>
 #include <utility>
@@ -20,14 +21,12 @@ namespace {
 /// Closed rings, one after the other; side i runs from corner i to the next one of its ring.
 class RingSides {
  public:
-  /// first: the number of each ring's first corner, ascending from 0. Refers to the corners.
+  /// first: the number of each ring's first corner, ascending from 0, and how many corners there are. Refers to these.
   RingSides(std::span<const Vec2> corners, std::span<const std::uint32_t> first)
       : corners_(corners), next_(corners.size()), previous_(corners.size()) {
-    const auto count = static_cast<std::uint32_t>(corners.size());
-    for (std::size_t r = 0; r < first.size(); ++r) {
-      const std::uint32_t end = r + 1 < first.size() ? first[r + 1] : count;
-      for (std::uint32_t i = first[r]; i < end; ++i) {
-        next_[i] = i + 1 < end ? i + 1 : first[r];
+    for (std::size_t r = 0; r + 1 < first.size(); ++r) {
+      for (std::uint32_t i = first[r]; i < first[r + 1]; ++i) {
+        next_[i] = i + 1 < first[r + 1] ? i + 1 : first[r];
         previous_[next_[i]] = i;
       }
     }
@@ -207,112 +206,50 @@ class RingSweep {
   std::vector<Status::iterator> place_;
 };
 
-/// The cuts, as a line sweeps over the rings. Between a side with the inside above it and the next side above lies an
-/// open strip; its post is the corner that the line passed last in it (or on the side, or where it opened). Nothing
-/// lies between a post and the next corner in the strip, so what joins the two meets no ring, and no two such joins
-/// cross.
-class HoleTies {
+/// Cuts a polygon along what ties its holes. The inside lies left of each side: the outer ring runs anticlockwise,
+/// holes clockwise. The cuts are found as a line sweeps over the rings: between a side with the inside above it and the
+/// next side above lies an open strip; its post is the corner that the line passed last in it (or on the side, or where
+/// it opened). Nothing lies between a post and the next corner in the strip, so what joins the two meets no ring, and
+/// no two such joins cross.
+class HoleCutter {
  public:
-  HoleTies(const RingSides& rings, std::span<const std::uint32_t> ring_first)
-      : rings_(rings), posts_(rings.size()), place_(rings.size(), Place::other), one_of_(rings.size()) {
-    for (std::size_t r = 1; r < ring_first.size(); ++r) {
-      std::uint32_t low = ring_first[r];
+  /// The outer ring first. Refers to them.
+  explicit HoleCutter(const PolygonSet& rings)
+      : corners_(rings.corners),
+        rings_(corners_, rings.first),
+        posts_(rings_.size()),
+        place_(rings_.size(), Place::other),
+        one_of_(rings_.size()) {
+    for (std::uint32_t i = 0; i < rings_.size(); ++i) add_line(i, rings_.next(i));
+    for (std::size_t r = 1; r < rings.size(); ++r) {
+      std::uint32_t low = rings.first[r];
       std::uint32_t high = low;
-      for (std::uint32_t i = rings.next(low); i != ring_first[r]; i = rings.next(i)) {
-        if (is_before(rings.corner(i), rings.corner(low))) low = i;
-        if (is_before(rings.corner(high), rings.corner(i))) high = i;
+      for (std::uint32_t i = rings_.next(low); i != rings.first[r]; i = rings_.next(i)) {
+        if (is_before(corners_[i], corners_[low])) low = i;
+        if (is_before(corners_[high], corners_[i])) high = i;
       }
       place_[low] = Place::leftmost;
       place_[high] = Place::rightmost;
     }
   }
 
-  /// Corners of one place, where rings touch; below: the side that they lie directly above; touched: the one that they
-  /// lie on. Who touches is tied there already.
-  void pass(std::span<const std::uint32_t> corners, std::uint32_t below, std::uint32_t touched) {
-    const std::uint32_t one = corners.front();
-    place_[one] = place_of(corners, touched);
-    for (const std::uint32_t corner : corners) one_of_[corner] = one;
-    if (touched != RingSweep::no_side) touches_.emplace_back(touched, one);
-    if (below != RingSweep::no_side && rings_.ahead(below)) arrive(one, below);
-    for (const std::uint32_t corner : corners) {
-      const std::uint32_t before = rings_.previous(corner);
-      if (rings_.ahead(before)) arrive(one, before);  // ends here, with the inside above it
-      if (rings_.ahead(corner)) posts_[corner] = one;
-    }
-  }
-
-  /// The one of the corners of its place that stands for all of them.
-  std::uint32_t one_of(std::uint32_t corner) const { return one_of_[corner]; }
-  /// Sides and the corners that lie on them, these from left to right.
-  const std::vector<std::pair<std::uint32_t, std::uint32_t>>& touches() const { return touches_; }
-  const std::vector<std::pair<std::uint32_t, std::uint32_t>>& cuts() const { return cuts_; }
-
- private:
-  /// Of holes, where nothing else lies further left or right.
-  enum class Place : std::uint8_t { other, leftmost, rightmost };
-
-  Place place_of(std::span<const std::uint32_t> corners, std::uint32_t touched) const {
-    bool ends = touched != RingSweep::no_side;  // does a side end here, or begin?
-    bool begins = ends;
-    Place place = Place::other;
-    for (const std::uint32_t corner : corners) {
-      const bool arrives = rings_.ahead(rings_.previous(corner));
-      const bool leaves = rings_.ahead(corner);
-      ends = ends || arrives || !leaves;
-      begins = begins || leaves || !arrives;
-      if (place_[corner] != Place::other) place = place_[corner];
-    }
-    return (place == Place::leftmost && ends) || (place == Place::rightmost && begins) ? Place::other : place;
-  }
-
-  void arrive(std::uint32_t corner, std::uint32_t side) {
-    std::uint32_t& post = posts_[side];
-    if (place_[corner] == Place::leftmost || place_[post] == Place::rightmost) cuts_.emplace_back(post, corner);
-    post = corner;
-  }
-
-  const RingSides& rings_;
-  std::vector<std::uint32_t> posts_;  // of the strip above each side; only of sides on the line, with the inside above
-  std::vector<Place> place_;
-  std::vector<std::uint32_t> one_of_;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> touches_;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> cuts_;
-};
-
-/// The polygon's inside lies left of each side: the outer ring runs anticlockwise, holes clockwise.
-class HoleCutter {
- public:
-  void add_ring(const std::vector<Vec2>& ring) {
-    const auto first = static_cast<std::uint32_t>(corners_.size());
-    const auto n = static_cast<std::uint32_t>(ring.size());
-    for (std::uint32_t i = 0; i < n; ++i) {
-      corners_.push_back(ring[i]);
-      add_line(first + i, first + (i + 1) % n);
-    }
-    ring_first_.push_back(first);
-  }
-
   /// Ties all rings but the first one to what lies left and right of them. False: rings cross, or share more than a
   /// point, or a hole lies outside.
   bool tie_holes(const Execution& execution) {
-    const RingSides rings(corners_, ring_first_);
-    HoleTies ties(rings, ring_first_);
-    RingSweep sweep(rings, execution, true);
-    if (sweep.run([&](auto corners, auto below, auto touched) { ties.pass(corners, below, touched); })) return false;
+    RingSweep sweep(rings_, execution, true);
+    if (sweep.run([&](auto corners, auto below, auto touched) { pass(corners, below, touched); })) return false;
     const auto split = [&](std::uint32_t side, std::uint32_t corner) {  // what is left of the line is its first part
       add_line(corner, lines_[side].to);
       lines_[side].to = corner;
     };
-    const auto& touches = ties.touches();
-    for (const auto& [side, corner] : touches) {
-      if (!rings.ahead(side)) split(side, corner);
+    for (const auto& [side, corner] : touches_) {
+      if (!rings_.ahead(side)) split(side, corner);
     }
-    for (auto touch = touches.rbegin(); touch != touches.rend(); ++touch) {
-      if (rings.ahead(touch->first)) split(touch->first, touch->second);
+    for (auto touch = touches_.rbegin(); touch != touches_.rend(); ++touch) {
+      if (rings_.ahead(touch->first)) split(touch->first, touch->second);
     }
-    for (Line& line : lines_) line = {ties.one_of(line.from), ties.one_of(line.to)};
-    for (const auto& [from, to] : ties.cuts()) {
+    for (Line& line : lines_) line = {one_of_[line.from], one_of_[line.to]};
+    for (const auto& [from, to] : cuts_) {
       add_line(from, to);
       add_line(to, from);
     }
@@ -344,6 +281,43 @@ class HoleCutter {
   struct Line {
     std::uint32_t from, to;
   };
+  /// Of holes, where nothing else lies further left or right.
+  enum class Place : std::uint8_t { other, leftmost, rightmost };
+
+  /// Corners of one place, where rings touch; below: the side that they lie directly above; touched: the one that they
+  /// lie on. Who touches is tied there already.
+  void pass(std::span<const std::uint32_t> corners, std::uint32_t below, std::uint32_t touched) {
+    const std::uint32_t one = corners.front();
+    place_[one] = place_of(corners, touched);
+    for (const std::uint32_t corner : corners) one_of_[corner] = one;
+    if (touched != RingSweep::no_side) touches_.emplace_back(touched, one);
+    if (below != RingSweep::no_side && rings_.ahead(below)) arrive(one, below);
+    for (const std::uint32_t corner : corners) {
+      const std::uint32_t before = rings_.previous(corner);
+      if (rings_.ahead(before)) arrive(one, before);  // ends here, with the inside above it
+      if (rings_.ahead(corner)) posts_[corner] = one;
+    }
+  }
+
+  Place place_of(std::span<const std::uint32_t> corners, std::uint32_t touched) const {
+    bool ends = touched != RingSweep::no_side;  // does a side end here, or begin?
+    bool begins = ends;
+    Place place = Place::other;
+    for (const std::uint32_t corner : corners) {
+      const bool arrives = rings_.ahead(rings_.previous(corner));
+      const bool leaves = rings_.ahead(corner);
+      ends = ends || arrives || !leaves;
+      begins = begins || leaves || !arrives;
+      if (place_[corner] != Place::other) place = place_[corner];
+    }
+    return (place == Place::leftmost && ends) || (place == Place::rightmost && begins) ? Place::other : place;
+  }
+
+  void arrive(std::uint32_t corner, std::uint32_t side) {
+    std::uint32_t& post = posts_[side];
+    if (place_[corner] == Place::leftmost || place_[post] == Place::rightmost) cuts_.emplace_back(post, corner);
+    post = corner;
+  }
 
   void add_line(std::uint32_t from, std::uint32_t to) { lines_.push_back({from, to}); }
 
@@ -369,9 +343,14 @@ class HoleCutter {
     return orient2d(at, p, q) < 0;
   }
 
-  std::vector<Vec2> corners_;
+  const std::vector<Vec2>& corners_;
+  RingSides rings_;
+  std::vector<std::uint32_t> posts_;  // of the strip above each side; only of sides on the line, with the inside above
+  std::vector<Place> place_;
+  std::vector<std::uint32_t> one_of_;  // of a corner: the one of its place that stands for all of them
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> touches_;  // sides with corners on them, from left to right
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> cuts_;
   std::vector<Line> lines_;  // sides, and each cut in both directions
-  std::vector<std::uint32_t> ring_first_;
 };
 
 /// The sides that two of the pieces have, in opposite directions.
@@ -395,9 +374,7 @@ constexpr std::size_t obstacle_grain = 512;
 /// Appends the corners without repetitions, the last one and the first included.
 void append_distinct(std::vector<Vec2>& to, const std::vector<Vec2>& corners) {
   const std::size_t begin = to.size();
-  for (const Vec2 p : corners) {
-    if (to.size() == begin || !(p == to.back())) to.push_back(p);
-  }
+  std::ranges::unique_copy(corners, std::back_inserter(to));
   while (to.size() > begin + 1 && to.back() == to[begin]) to.pop_back();
 }
 
@@ -410,7 +387,7 @@ std::string text_of(Vec2 p) { return fmt::format("{} {}", p.x, p.y); }
 
 /// place(): names the polygon. No two corners in a row are equal.
 template <class Place>
-void check_outline(std::span<const Vec2> corners, const Place& place, const Execution& execution) {
+void check_outline(std::span<const Vec2> corners, const Execution& execution, const Place& place) {
   if (corners.size() < 3) {
     throw InputError(place(), "a polygon needs at least three different corners", std::to_string(corners.size()));
   }
@@ -437,8 +414,7 @@ PolygonSet checked_outlines(const Scene& scene, Range range, const Execution& ex
     check_corners(scene, set.corners.size());
     set.first.push_back(static_cast<std::uint32_t>(set.corners.size()));
     const std::span<Vec2> outline = std::span(set.corners).subspan(set.first[set.first.size() - 2]);
-    check_outline(
-        std::span<const Vec2>(outline), [&] { return place_of_polygon(scene, i); }, execution);
+    check_outline(outline, execution, [&] { return place_of_polygon(scene, i); });
     if (runs_clockwise(outline)) std::reverse(outline.begin(), outline.end());
   }
   return set;
@@ -455,11 +431,12 @@ std::vector<std::vector<Vec2>> without_holes(const std::vector<Vec2>& outer, std
     if (ring.size() < 3 || anticlockwise(ring) == ring) return {};  // what has no area can't be turned
     rings.push_back(std::move(ring));
   }
-  HoleCutter cutter;
+  PolygonSet checked;
   for (const std::vector<Vec2>& ring : rings) {
     if (ring.size() < 3 || self_contact(ring, execution)) return {ring};
-    cutter.add_ring(ring);
+    checked.add(ring);
   }
+  HoleCutter cutter(checked);
   if (!cutter.tie_holes(execution)) return {};
   return cutter.pieces();
 }
@@ -485,7 +462,7 @@ bool stands_on_seam(const Scene& scene, Vec2 p) {
 
 std::optional<SideContact> self_contact(std::span<const Vec2> corners, const Execution& execution) {
   constexpr std::size_t few = 24;
-  constexpr std::uint32_t one_ring[] = {0};
+  const std::uint32_t one_ring[] = {0, static_cast<std::uint32_t>(corners.size())};
   const RingSides outline(corners, one_ring);
   if (outline.size() <= few) {
     for (std::size_t i = 0; i < outline.size(); ++i) {
@@ -522,8 +499,7 @@ void check_polygons(const Scene& scene, const Execution& execution) {
 void check_body(std::span<const Vec2> outline, const std::string& where, const Execution& execution) {
   std::vector<Vec2> corners;
   append_distinct(corners, {outline.begin(), outline.end()});
-  check_outline(
-      std::span<const Vec2>(corners), [&] { return where; }, execution);
+  check_outline(corners, execution, [&] { return where; });
 }
 
 PlaneObstacles plane_obstacles(const Scene& scene, const Execution& execution) {

@@ -30,6 +30,12 @@ struct ClearancePrice {
   std::optional<double> reach = {};  ///< from so far on nothing is paid, > 0; none: the body's least width
 };
 
+/// A simple polygon as its file gives it.
+struct ScenePolygon {
+  std::vector<Vec2> corners;  ///< in order, either orientation, the last joined to the first
+  std::size_t line = 0;       ///< of its file, from 1; 0: none
+};
+
 /// A simple polygon whose open inside has a price.
 struct PricedArea {
   double factor = 1.0;        ///< of length in it, 1 .. largest_price
@@ -61,18 +67,12 @@ struct PriceMask {
   std::optional<MaskCells> read = {};  ///< what the file holds, where somebody has read it
 };
 
-/// A forbidden area.
-struct KeepOut {
-  std::vector<Vec2> corners;  ///< of a simple polygon, in order, either orientation
-  std::size_t line = 0;       ///< of its file, from 1; 0: none
-};
-
 /// All prices of a question, or of a world's file.
 struct Prices {
   std::optional<ClearancePrice> clearance = {};  ///< none: nearness costs nothing
   std::vector<PricedArea> areas = {};            ///< the greatest factor counts where several lie
   std::vector<PriceMask> masks = {};             ///< the same
-  std::vector<KeepOut> keep_out = {};            ///< whose open insides nothing may touch
+  std::vector<ScenePolygon> keep_out = {};       ///< whose open insides nothing may touch
   /// Factor of unknown cells, 1 .. largest_price; infinite: blocked, whatever is said elsewhere; none: blocked.
   std::optional<double> unknown = {};
 

@@ -179,10 +179,10 @@ std::string scene_hash(const Scene& scene, const Execution& execution) {
 
 template <class Wall>
 void WallsChunk::add(std::span<const Wall> more) {
-  WallFold all = fold;  // in registers
-  for (const Wall& wall : more) all.add(wall.segment());
-  fold = all;
-  walls += more.size();
+  WallsChunk all = *this;  // in registers
+  for (const Wall& wall : more) all.fold(wall.segment());
+  all.walls += more.size();
+  *this = all;
 }
 
 template <class Wall>

@@ -25,13 +25,6 @@
 
 namespace warren {
 
-/// A simple polygon as its file gives it: corners in order, either orientation; `line` is its line in the file (0:
-/// none).
-struct ScenePolygon {
-  std::vector<Vec2> corners;  ///< in order, the last joined to the first
-  std::size_t line = 0;       ///< of its file, from 1
-};
-
 /// A closed ball.
 struct Sphere {
   double x;       ///< of the middle
@@ -205,33 +198,22 @@ inline constexpr std::uint64_t fold_secret_a = 0xa0761d6478bd642fU;
 /// The same for every other word.
 inline constexpr std::uint64_t fold_secret_b = 0xe7037ed1a0b428dbU;
 
-/// One chunk of walls.
-class WallFold {
- public:
-  /// The next wall.
-  void add(const Segment& s) {
-    first_ = folded_words(hashed_word(s.a.x) ^ fold_secret_a, hashed_word(s.a.y) ^ first_);
-    second_ = folded_words(hashed_word(s.b.x) ^ fold_secret_b, hashed_word(s.b.y) ^ second_);
-  }
-  /// walls: how many were added.
-  std::uint64_t value(std::size_t walls) const {
-    return folded_words(first_ ^ fold_secret_b, second_ ^ fold_secret_a ^ walls);
-  }
-
- private:
-  std::uint64_t first_ = fold_secret_a;
-  std::uint64_t second_ = fold_secret_b;
-};
-
-/// A chunk as far as it has come.
+/// A chunk of walls as far as it has come.
 struct WallsChunk {
-  WallFold fold;          ///< of the walls so far
-  std::size_t walls = 0;  ///< how many they are
+  std::uint64_t first = fold_secret_a;   ///< of the walls' first ends
+  std::uint64_t second = fold_secret_b;  ///< of their second ends
+  std::size_t walls = 0;                 ///< how many they are
+
+  /// The next wall, which the caller counts.
+  void fold(const Segment& s) {
+    first = folded_words(hashed_word(s.a.x) ^ fold_secret_a, hashed_word(s.a.y) ^ first);
+    second = folded_words(hashed_word(s.b.x) ^ fold_secret_b, hashed_word(s.b.y) ^ second);
+  }
   /// Those that follow.
   template <class Wall>
   void add(std::span<const Wall> more);
   /// What the chunk adds to the hash.
-  std::uint64_t value() const { return fold.value(walls); }
+  std::uint64_t value() const { return folded_words(first ^ fold_secret_b, second ^ fold_secret_a ^ walls); }
 };
 
 /// scene_hash() of walls that nobody holds all at once.
@@ -243,8 +225,10 @@ class WallsHash {
   /// Those that follow: of PackedWall, FloatWall or DoubleWall. Whole chunks are hashed on all threads. Throws Stopped.
   template <class Wall>
   void add(std::span<const Wall> walls, const Execution& execution);
-  /// The value of the chunk that follows, for whoever folds all of them.
+  /// The value of the chunk that follows, for whoever folds it.
   void add(std::uint64_t chunk) { state_ = folded_words(state_ ^ fold_secret_a, chunk ^ fold_secret_b); }
+  /// The first walls of the chunk that follows.
+  void begin(const WallsChunk& chunk) { open_ = chunk; }
   /// After all walls: as scene_hash() of a scene that has them, and beside them what `beside` has.
   std::string text(const Scene& beside = {}) const;
 

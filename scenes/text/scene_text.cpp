@@ -432,7 +432,7 @@ std::vector<std::string> price_lines(const Prices& prices,
   for (const PricedArea& area : prices.areas)
     lines.push_back(fmt::format("area {}{}", digits_of(area.factor), corners_text(area.corners)));
   for (const PriceMask& mask : prices.masks) lines.push_back(mask_text(mask, name_of_file(mask.file)));
-  for (const KeepOut& area : prices.keep_out) lines.push_back("keep-out" + corners_text(area.corners));
+  for (const ScenePolygon& area : prices.keep_out) lines.push_back("keep-out" + corners_text(area.corners));
   if (prices.opens_unknown()) lines.push_back("unknown " + digits_of(*prices.unknown));
   return lines;
 }

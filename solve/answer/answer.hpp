@@ -44,10 +44,8 @@ struct NamedFigure {
 
 /// The figure of that name, or nullptr.
 inline const Figure* figure_named(const std::vector<NamedFigure>& figures, std::string_view name) {
-  for (const NamedFigure& figure : figures) {
-    if (figure.name == name) return &figure.value;
-  }
-  return nullptr;
+  const auto found = std::ranges::find(figures, name, &NamedFigure::name);
+  return found != figures.end() ? &found->value : nullptr;
 }
 
 // What became of the work of a solve beyond what its answer tells anyhow: which stage lost what, where it is narrow,

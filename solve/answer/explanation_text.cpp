@@ -26,30 +26,28 @@ std::string share(std::uint64_t part, std::uint64_t whole) {
 /// Of edges_checked: what is neither free nor refused.
 std::uint64_t blocked_edges(const Counters& c) { return c.edges_checked - c.edges_free - c.refused; }
 
-bool by_trees(const Answer& answer) {
-  return is_tree_planner(enum_named<PlannerKind>(answer.planner).value_or(PlannerKind::prm));
-}
-
-/// Samplers that look for free states take others, too, and drop them.
-std::string_view why_dropped(const Answer& answer) {
-  const bool seeks = answer.sampler == "gaussian" || answer.sampler == "bridge" || answer.sampler == "mixture";
-  return seeks ? "dropped: in obstacles, or not where the sampler looks" : "in obstacles or out of bounds";
+PlannerKind planner_of(const Answer& answer) {
+  return enum_named<PlannerKind>(answer.planner).value_or(PlannerKind::prm);
 }
 
 void add_samples(AnswerLines& lines, const Answer& answer) {
   const Counters& c = answer.counters;
   if (c.samples == 0) return;
   const std::string rounds = c.rounds > 1 ? fmt::format(" in {} rounds", grouped(c.rounds)) : "";
-  if (by_trees(answer)) {
+  const PlannerKind planner = planner_of(answer);
+  if (is_tree_planner(planner)) {
     return lines.add("samples", fmt::format("{} drawn to grow towards{}", grouped(c.samples), rounds));
   }
-  const auto planner = enum_named<PlannerKind>(answer.planner);
-  if (planner && gets_better(*planner)) {  // what can make nothing better is dropped, too
-    return lines.add("samples", fmt::format("{} drawn{}: {} kept", grouped(c.samples), rounds, grouped(c.kept)));
+  std::string text = fmt::format("{} drawn{}: {} kept", grouped(c.samples), rounds, grouped(c.kept));
+  if (!gets_better(planner)) {  // which drop what can make nothing better, too
+    // Samplers that look for free states take others, too, and drop them.
+    const bool seeks = answer.sampler == "gaussian" || answer.sampler == "bridge" || answer.sampler == "mixture";
+    const std::uint64_t dropped = c.samples - c.kept;
+    text +=
+        fmt::format(", {} ({}) {}", grouped(dropped), share(dropped, c.samples),
+                    seeks ? "dropped: in obstacles, or not where the sampler looks" : "in obstacles or out of bounds");
   }
-  lines.add("samples",
-            fmt::format("{} drawn{}: {} kept, {} ({}) {}", grouped(c.samples), rounds, grouped(c.kept),
-                        grouped(c.samples - c.kept), share(c.samples - c.kept, c.samples), why_dropped(answer)));
+  lines.add("samples", text);
 }
 
 void add_edges(AnswerLines& lines, const Answer& answer) {
@@ -186,7 +184,7 @@ std::string heuristic_note(const Answer& answer) {
                      grouped(answer.counters.expanded), grouped(*expanded));
 }
 
-/// In the order of the work; of stages that are not here nothing is counted, and they come before "optimise".
+/// In the order of the work; of stages that are not here, for which the one without a key stands, nothing is counted.
 struct Link {
   std::string_view key;
   std::string_view label;
@@ -212,15 +210,15 @@ constexpr std::array links{
          [](const Answer& a) {
            return fmt::format(", {} pushes, {} decreases", grouped(a.counters.pushes), grouped(a.counters.decreases));
          }},
+    Link{},
     Link{"optimise", "pulled taut"},
     Link{"verify", "verified", "points", path_points},
     Link{"bound", "lower bound"},
 };
-constexpr std::size_t first_of_the_end = links.size() - 3;
 
-std::size_t place_of(std::string_view key) {
-  const auto at = std::ranges::find(links, key, &Link::key);
-  return static_cast<std::size_t>(at - links.begin());
+const Link* link_of(std::string_view key) {
+  const auto* const found = std::ranges::find(links, key, &Link::key);
+  return found != links.end() ? found : link_of("");
 }
 
 bool is_sum(std::string_view key) {
@@ -234,11 +232,7 @@ std::vector<StageLine> plain_lines(const std::vector<StageCost>& costs) {
     lines.push_back({.key = cost.name, .label = cost.name, .wall_s = cost.wall_s, .cpu_s = cost.cpu_s, .counted = {}});
     std::ranges::replace(lines.back().key, ' ', '_');
   }
-  const auto rank = [](const StageLine& line) {
-    const std::size_t place = place_of(line.key);
-    return place == links.size() ? 2 * first_of_the_end - 1 : 2 * place;
-  };
-  std::ranges::stable_sort(lines, [&](const StageLine& a, const StageLine& b) { return rank(a) < rank(b); });
+  std::ranges::stable_sort(lines, {}, [](const StageLine& line) { return link_of(line.key); });
   return lines;
 }
 
@@ -251,9 +245,8 @@ void AnswerLines::add(std::string_view name, std::string_view what) {
 std::vector<StageLine> stage_lines(const Answer& answer) {
   std::vector<StageLine> lines = plain_lines(answer.costs);
   for (StageLine& line : lines) {
-    const std::size_t place = place_of(line.key);
-    if (place == links.size()) continue;
-    const Link& link = links[place];
+    const Link& link = *link_of(line.key);
+    if (link.key.empty()) continue;
     line.label = link.label;
     if (link.count != nullptr) line.count = link.count(answer);
     if (line.count == 0) continue;
@@ -310,7 +303,7 @@ std::string explanation_text(const Answer& answer, const Palette& palette) {
 std::string explanation_json(const Answer& answer) {
   const Explanation& explained = *answer.explained;
   const Counters& c = answer.counters;
-  const std::uint64_t dropped = by_trees(answer) ? 0 : c.samples - c.kept;
+  const std::uint64_t dropped = is_tree_planner(planner_of(answer)) ? 0 : c.samples - c.kept;
   JsonObject json;
   json.add_json("samples", json_object("drawn", c.samples, "kept", c.kept, "dropped", dropped));
   json.add_json("motions", json_object("checked", c.edges_checked, "free", c.edges_free, "blocked", blocked_edges(c),

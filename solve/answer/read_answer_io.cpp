@@ -4,10 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "core/base/whole.hpp"
@@ -36,7 +37,7 @@ class AnswerReader {
     if (in("kept")) keeping().kept = value;
     if (in("optimal")) answer_.optimal = value;
     if (in_option("optimise")) answer_.driving.optimise = value;
-    return in("return") || in("kept") || in("optimal") || other("true or false");
+    return other("true or false");
   }
   bool number_integer(Json::number_integer_t value) { return number(static_cast<double>(value)); }
   bool number_unsigned(Json::number_unsigned_t value) { return number(static_cast<double>(value)); }
@@ -57,7 +58,7 @@ class AnswerReader {
       answer_.bound_of = text;
     } else if (in("joints") && arrays_ == 1) {
       answer_.joints.push_back(text);
-    } else if (objects_ == 2 && key_ == "world" && inner_key_ == "hash") {
+    } else if (objects_ == 2 && keys_[0] == "world" && keys_[1] == "hash") {
       answer_.world_hash = text;
     } else {
       return other("a text");
@@ -67,13 +68,12 @@ class AnswerReader {
   bool binary(Json::binary_t&) { return false; }
   bool start_object(std::size_t) {
     if (in("path")) refuse(path_expected, "an object");
-    if (in_state() || in_states()) refuse(point_expected, "an object");
+    if (lists_around() > 0) refuse(point_expected, "an object");
     if (in("price")) answer_.price.emplace();
     if (in("goal_reached")) answer_.goal_reached.emplace();
     if (in("alternatives")) answer_.alternatives.emplace_back();
     if (in("holes")) answer_.holes.emplace_back();
     ++objects_;
-    began_ = true;
     return true;
   }
   bool end_object() {
@@ -81,23 +81,14 @@ class AnswerReader {
     return true;
   }
   bool key(std::string& name) {
-    if (objects_ == 1) {
-      key_ = name;
-      if (name == "path") {
-        if (has_path_) refuse("it once", "twice");
-        has_path_ = true;
-      }
-    } else if (objects_ == 2) {
-      inner_key_ = name;
-    } else if (objects_ == 3) {
-      innermost_key_ = name;
-    }
+    if (objects_ <= 3) keys_[objects_ - 1] = name;
+    if (in("path") && std::exchange(has_path_, true)) refuse("it once", "twice");
     return true;
   }
   bool start_array(std::size_t) {
     if (objects_ == 0) refuse_kind();
-    if ((in("path") || in_states()) && arrays_ >= 2) refuse(path_expected, "a deeper list");
-    if (in_number()) refuse("a number", "a list");
+    if (lists_around() == 2 && arrays_ >= 2) refuse(path_expected, "a deeper list");
+    if (number_place() != nullptr) refuse("a number", "a list");
     ++arrays_;
     numbers_.clear();
     return true;
@@ -105,10 +96,9 @@ class AnswerReader {
   bool end_array() {
     --arrays_;
     if (in("path") && arrays_ == 1) end_point();
-    if (in_states() && arrays_ == 1) {
+    if (auto* const list = places(); list != nullptr && arrays_ == 1) {
       if (numbers_.size() < (in("goals") ? 1U : 2U)) refuse(point_expected, fmt::format("{} numbers", numbers_.size()));
-      GoalRule& rule = answer_.problem.rule;
-      (in("goals") ? rule.others : in("via") ? answer_.via : rule.visit).push_back(numbers_);
+      list->push_back(numbers_);
     }
     if (objects_ == 2) end_inner_list();
     if (in("start") && arrays_ == 0) answer_.problem.start = numbers_;
@@ -126,12 +116,12 @@ class AnswerReader {
     if (answer_.path.empty()) throw InputError(file_, "key \"path\" has no points: there is nothing to check");
     const bool of_arm = answer_.problem.robot && answer_.problem.robot->kind == RobotKind::urdf;
     for (const auto& [name, state] : {std::pair{"start", &answer_.problem.start}, {"goal", &answer_.problem.goal}}) {
-      key_ = name;  // one number is for arms of one joint
+      keys_[0] = name;  // one number is for arms of one joint
       if (state->size() == 1 && !of_arm) refuse(point_expected);
     }
     GoalRule& rule = answer_.problem.rule;
     if (!rule.others.empty()) rule.others.erase(rule.others.begin());  // the first is "goal"
-    if (answer_.price) answer_.price->error = cost_error_;
+    if (answer_.price) answer_.price->error = cost_error_.value_or(0.0);
     try {
       check_prices(answer_.problem.prices);
       check_goal_rule(rule, of_arm ? 1 : 2);
@@ -143,106 +133,97 @@ class AnswerReader {
 
  private:
   static void take_part(PriceParts& parts, std::string_view name, double value) {
-    double* const part = name == "clearance" ? &parts.clearance
-                         : name == "areas"   ? &parts.areas
-                         : name == "turning" ? &parts.turning
-                         : name == "cusps"   ? &parts.cusps
-                         : name == "reverse" ? &parts.reverse
-                                             : nullptr;
-    if (part != nullptr) *part = value;
+    if (name == "clearance") parts.clearance = value;
+    if (name == "areas") parts.areas = value;
+    if (name == "turning") parts.turning = value;
+    if (name == "cusps") parts.cusps = value;
+    if (name == "reverse") parts.reverse = value;
   }
   KeptRoute& keeping() { return answer_.keeping ? *answer_.keeping : answer_.keeping.emplace(); }
   /// In the list of that name, in one of its objects.
-  bool in_one_of(std::string_view name) const { return objects_ >= 2 && key_ == name && arrays_ >= 1; }
+  bool in_one_of(std::string_view name) const { return objects_ >= 2 && keys_[0] == name && arrays_ >= 1; }
 
   void take_inner(double value) {
     if (in_one_of("alternatives")) {
       AlternativePath& other = answer_.alternatives.back();
-      if (objects_ == 3 && inner_key_ == "price") take_part(other.price, innermost_key_, value);
-      if (objects_ == 2 && inner_key_ == "cost") other.cost = value;
-      if (objects_ == 2 && inner_key_ == "length") other.length = value;
-      if (objects_ == 2 && inner_key_ == "min_clearance") other.min_clearance = value;
-      if (objects_ == 2 && inner_key_ == "class") other.passed.push_back(bounded_whole<std::int32_t>(value));
-      if (objects_ == 2 && inner_key_ == "path") take_number(value);
+      if (objects_ == 3 && keys_[1] == "price") take_part(other.price, keys_[2], value);
+      if (objects_ > 2) return;
+      if (keys_[1] == "cost") other.cost = value;
+      if (keys_[1] == "length") other.length = value;
+      if (keys_[1] == "min_clearance") other.min_clearance = value;
+      if (keys_[1] == "class") other.passed.push_back(bounded_whole<std::int32_t>(value));
+      if (keys_[1] == "path") take_number(value);
     } else if (in_one_of("holes")) {
-      if (inner_key_ == "id") answer_.holes.back().id = bounded_whole<std::uint32_t>(value, 0.0);
-      if (inner_key_ == "box") take_number(value);
-    } else if (objects_ == 2 && key_ == "price" && arrays_ == 0) {
-      take_part(*answer_.price, inner_key_, value);
-    } else if (objects_ == 2 && key_ == "goal_reached") {
-      if (inner_key_ == "asked" && arrays_ == 1 && answer_.goal_reached->asked.size() < most_joints) {
-        answer_.goal_reached->asked.push_back(value);
-      }
-      if (inner_key_ == "distance") answer_.goal_reached->distance = value;
-      if (inner_key_ == "distance_bound") answer_.goal_reached->distance_bound = value;
+      if (keys_[1] == "id") answer_.holes.back().id = bounded_whole<std::uint32_t>(value, 0.0);
+      if (keys_[1] == "box") take_number(value);
+    } else if (objects_ == 2 && keys_[0] == "price" && arrays_ == 0) {
+      take_part(*answer_.price, keys_[1], value);
+    } else if (objects_ == 2 && keys_[0] == "goal_reached") {
+      GoalReached& reached = *answer_.goal_reached;
+      if (keys_[1] == "asked" && arrays_ == 1 && reached.asked.size() < most_joints) reached.asked.push_back(value);
+      if (keys_[1] == "distance") reached.distance = value;
+      if (keys_[1] == "distance_bound") reached.distance_bound = value;
     }
   }
+  void check_size(double value) const {
+    if (!is_coordinate(value)) refuse("finite numbers of at most 1e60");
+  }
   void take_number(double value) {
-    if (!(std::abs(value) <= largest_coordinate)) refuse("finite numbers of at most 1e60");
+    check_size(value);
     if (numbers_.size() >= 4) refuse("four numbers at most");
     numbers_.push_back(value);
   }
   void end_inner_list() {
-    if (in_one_of("alternatives") && inner_key_ == "path" && arrays_ == 2) {
+    if (in_one_of("alternatives") && keys_[1] == "path" && arrays_ == 2) {
       if (numbers_.size() != 2) refuse(path_expected, fmt::format("a point of {} numbers", numbers_.size()));
       answer_.alternatives.back().path.push_back({numbers_[0], numbers_[1]});
     }
-    if (in_one_of("holes") && inner_key_ == "box" && arrays_ == 1) {
+    if (in_one_of("holes") && keys_[1] == "box" && arrays_ == 1) {
       if (numbers_.size() != 4) refuse("a box of four numbers", fmt::format("{} numbers", numbers_.size()));
       answer_.holes.back().box = {{numbers_[0], numbers_[1]}, {numbers_[2], numbers_[3]}};
     }
   }
   bool number(double value) {
-    if (!began_) refuse_kind();
-    const bool wanted = in("path") || in_state() || in_states() || in_number();
-    if (wanted && !(std::abs(value) <= largest_coordinate)) refuse("finite numbers of at most 1e60");
-    if ((in("path") || in_states()) && arrays_ != 2) refuse(path_expected, "a number");
-    if (in_state() && arrays_ != 1) refuse(point_expected, "a number");
+    if (objects_ == 0) refuse_kind();
+    if (const int lists = lists_around(); lists > 0) {
+      check_size(value);
+      if (arrays_ != lists) refuse(lists == 2 ? path_expected : point_expected, "a number");
+      if (numbers_.size() >= most_joints) refuse(in("path") ? path_expected : point_expected, "more numbers");
+      numbers_.push_back(value);
+    } else if (std::optional<double>* const place = number_place()) {
+      check_size(value);
+      if (in("clearance") && value < 0.0) refuse("a number of at least 0", fmt::format("{}", value));
+      *place = value;
+    }
     if (objects_ >= 2) take_inner(value);
     if (in("order") && arrays_ == 1) answer_.order.push_back(bounded_whole<std::uint64_t>(value, 0.0));
     if (in("class") && arrays_ == 1) answer_.passed.push_back(bounded_whole<std::int32_t>(value));
-    if (in("hole_size")) answer_.hole_size = value;
     if (in("kept_cost")) keeping().kept_cost = value;
     if (in("new_cost")) keeping().new_cost = value;
     if (in_option("turn_cost")) answer_.driving.turn_cost = value;
     if (in_option("cusp_cost")) answer_.driving.cusp_cost = value;
     if (in_option("reverse_cost")) answer_.driving.reverse_cost = value;
-    if (in("clearance")) {
-      if (value < 0.0) refuse("a number of at least 0", fmt::format("{}", value));
-      answer_.problem.clearance = value;
-    }
-    if (in("length")) answer_.length = value;
-    if (in("lower_bound")) answer_.lower_bound = value;
-    if (in("gap")) answer_.gap = value;
-    if (in("cost")) answer_.cost = value;
-    if (in("cost_error")) cost_error_ = value;
-    if (in("goal_tolerance")) answer_.problem.rule.tolerance = value;
-    if (in("goal_region")) answer_.problem.rule.region = value;
-    if (in("goal_heading_rad")) answer_.problem.rule.heading_rad = value;
     if (in("goal_index") && arrays_ == 0 && value >= 0.0) answer_.goal_index = bounded_whole<std::uint64_t>(value);
-    if (wanted && arrays_ > 0) {
-      if (numbers_.size() >= most_joints) refuse(in("path") ? path_expected : point_expected, "more numbers");
-      numbers_.push_back(value);
-    }
     return true;
   }
   /// null is as good as a key that isn't there.
   bool other(const char* found) {
     if (in("path")) refuse(path_expected, found);
     const bool missing = std::string_view(found) == "null" && arrays_ == 0;
-    if ((in_state() || in_states()) && !missing) refuse(point_expected, found);
-    if (in_number() && !missing) refuse("a number", found);
+    if (lists_around() > 0 && !missing) refuse(point_expected, found);
+    if (number_place() != nullptr && !missing) refuse("a number", found);
     if (in("contact") && !missing) refuse("\"allowed\" or \"blocked\"", found);
-    if (!began_) refuse_kind();
+    if (objects_ == 0) refuse_kind();
     return true;
   }
   [[noreturn]] void refuse(std::string_view expected, std::string_view found = {}) const {
-    scene_text::Place{fmt::format("{}: key \"{}\"", file_, key_), 0}.fail(fmt::format("expected {}", expected), found);
+    scene_text::Place{fmt::format("{}: key \"{}\"", file_, keys_[0]), 0}.fail(fmt::format("expected {}", expected),
+                                                                              found);
   }
   [[noreturn]] void refuse_kind() const { throw InputError(file_, "expected one JSON object: an answer"); }
-  bool in(std::string_view name) const { return objects_ == 1 && key_ == name; }
+  bool in(std::string_view name) const { return objects_ == 1 && keys_[0] == name; }
   bool in_option(std::string_view name) const {
-    return objects_ == 2 && arrays_ == 0 && key_ == "options" && inner_key_ == name;
+    return objects_ == 2 && arrays_ == 0 && keys_[0] == "options" && keys_[1] == name;
   }
   bool in_state() const { return in("start") || in("goal") || in("goal_pose"); }
   void take_pose() {
@@ -252,10 +233,28 @@ class AnswerReader {
     if (!(turn.norm() > 0.0)) refuse("[X, Y, Z, QX, QY, QZ, QW]");
     answer_.problem.goal_pose = Eigen::Translation3d(numbers_[0], numbers_[1], numbers_[2]) * turn.normalized();
   }
-  bool in_states() const { return in("goals") || in("visit") || in("via"); }
-  bool in_number() const {
-    return in("clearance") || in("length") || in("lower_bound") || in("gap") || in("cost") || in("cost_error") ||
-           in("hole_size") || in("goal_tolerance") || in("goal_region") || in("goal_heading_rad");
+  /// Where a list of states goes; nullptr: this is none.
+  std::vector<std::vector<double>>* places() {
+    GoalRule& rule = answer_.problem.rule;
+    return in("goals") ? &rule.others : in("visit") ? &rule.visit : in("via") ? &answer_.via : nullptr;
+  }
+  /// Around each number of a path, of a list of states, of a state; 0: this is none.
+  int lists_around() { return in("path") || places() != nullptr ? 2 : in_state() ? 1 : 0; }
+  /// Where a number of the answer itself goes; nullptr: of another key.
+  std::optional<double>* number_place() {
+    GoalRule& rule = answer_.problem.rule;
+    const std::pair<std::string_view, std::optional<double>*> keyed[] = {{"clearance", &answer_.problem.clearance},
+                                                                         {"length", &answer_.length},
+                                                                         {"lower_bound", &answer_.lower_bound},
+                                                                         {"gap", &answer_.gap},
+                                                                         {"cost", &answer_.cost},
+                                                                         {"cost_error", &cost_error_},
+                                                                         {"hole_size", &answer_.hole_size},
+                                                                         {"goal_tolerance", &rule.tolerance},
+                                                                         {"goal_region", &rule.region},
+                                                                         {"goal_heading_rad", &rule.heading_rad}};
+    const auto* const found = std::ranges::find_if(keyed, [&](const auto& key) { return in(key.first); });
+    return found != std::end(keyed) ? found->second : nullptr;
   }
   void end_point() {
     const std::size_t width = answer_.path.empty() ? numbers_.size() : answer_.state_width();
@@ -272,15 +271,12 @@ class AnswerReader {
   const std::string& file_;
   const Execution& execution_;
   RecordedAnswer answer_;
-  std::string key_;            // of the answer itself
-  std::string inner_key_;      // of an object in it
-  std::string innermost_key_;  // of an object in that
-  int objects_ = 0;
+  std::array<std::string, 3> keys_;  // of the answer itself, of an object in it, of an object in that
+  std::size_t objects_ = 0;
   int arrays_ = 0;
-  double cost_error_ = 0.0;
+  std::optional<double> cost_error_;
   std::vector<double> numbers_;  // of the array that is being read
   bool has_path_ = false;
-  bool began_ = false;
 };
 
 }  // namespace

@@ -158,11 +158,8 @@ void add_quality(JsonObject& json, const Answer& answer) {
 void add_outcome(JsonObject& json, const Answer& answer) {
   json.add("schema", "warren.answer/1", "warren_version", WARREN_VERSION);
   json.add("status", answer.refuted ? "refuted" : name_of(answer.outcome));
-  if (answer.stop_reason) {
-    json.add("stopped_by", name_of(*answer.stop_reason));
-  } else if (!answer.ended_by.empty()) {
-    json.add("stopped_by", answer.ended_by);
-  }
+  const std::string_view ended = answer.stop_reason ? name_of(*answer.stop_reason) : std::string_view(answer.ended_by);
+  if (!ended.empty()) json.add("stopped_by", ended);
   json.add("verified", answer.verified);
   json.add_or_null("length", answer.verified, answer.length);
   json.add_or_null("min_clearance", answer.verified, answer.min_clearance);

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -23,6 +22,7 @@
 #include "core/plane/se2.hpp"
 #include "parallel/asked_memory.hpp"
 #include "scenes/text/human_units.hpp"
+#include "scenes/text/scene_text.hpp"
 #include "solve/explain/nearest_free.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 #include "solve/kinds/question_of_pose.hpp"
@@ -40,10 +40,8 @@ namespace {
 /// The 17 of "wall 17: ...", what a judge calls an obstacle, after the word "wall ".
 std::optional<std::size_t> number_after(std::string_view name, std::string_view word) {
   if (!name.starts_with(word)) return std::nullopt;
-  name.remove_prefix(word.size());
-  std::size_t number = 0;
-  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
-  return error == std::errc() && end != name.data() ? std::optional(number) : std::nullopt;
+  const std::string_view rest = name.substr(word.size());
+  return scene_text::number_in_full<std::size_t>(rest.substr(0, rest.find_first_not_of("0123456789")));
 }
 
 bool has_side(const ScenePolygon& polygon, const Segment& side, const Execution& execution) {
@@ -174,8 +172,7 @@ class BlockedEndSearch {
     const double farthest = portable::hypot(box.width(), box.height());
     const double touching = 1e-6 * farthest;
     const auto is_out = [&](const Numbers<2>& p) { return there.is_free({p[0], p[1]}, 0.0); };
-    NearestFree<2, decltype(is_out)> search({at().x, at().y}, directions_, is_out);
-    const auto found = search.find({touching, farthest});
+    const auto found = nearest_free<2>({at().x, at().y}, directions_, {touching, farthest}, is_out);
     return found && found->distance > touching ? std::optional(found->distance) : std::nullopt;
   }
 
@@ -664,8 +661,9 @@ Scene obstacles_near(const Scene& scene, std::span<const Vec2> path, double reac
     }
     const Box around = box.grown(reach);
     bool is_near = false;
-    legs.for_each([&](const Box& some) { return is_near || !some.meets(around); },
-                  [&](std::size_t leg) { is_near = is_near || around.meets(box_of(legs.leg(leg))); });
+    const auto look = [&](std::size_t leg) { is_near = is_near || around.meets(box_of(legs.leg(leg))); };
+    legs.for_each_block([&](const Box& some) { return is_near || !some.meets(around); },
+                        [&](std::size_t block) { legs.for_each_in(block, look); });
     return is_near;
   };
   Scene near = without_arrays(scene);

@@ -55,74 +55,63 @@ struct FreeSearchRange {
   double enough = 0.0;  ///< a state so near the middle needs no better one
 };
 
-/// is_free(state): of Numbers<n>. directions: as directions_around() gives them.
+/// The state that is so far from the middle in a direction.
+template <std::size_t n>
+Numbers<n> state_at(const Numbers<n>& middle, const Numbers<n>& direction, double distance) {
+  Numbers<n> state = middle;
+  for (std::size_t k = 0; k < n; ++k) state[k] += distance * direction[k];
+  return state;
+}
+
+/// is_free(state): of Numbers<n>. directions: as directions_around() gives them. Nothing: there is none, or it is
+/// narrower than directions are apart.
 template <std::size_t n, class IsFree>
-class NearestFree {
- public:
-  NearestFree(const Numbers<n>& middle, std::span<const Numbers<n>> directions, const IsFree& is_free)
-      : middle_(middle), directions_(directions), is_free_(is_free) {}
-
-  /// Nothing: there is none, or it is narrower than directions are apart.
-  std::optional<FreeDirection<n>> find(const FreeSearchRange& range) {
-    constexpr double growth = 1.25;
-    double before = 0.0;
-    for (double radius = range.first; radius <= range.farthest; radius *= growth) {
-      best_.distance = radius;
-      bool found = false;
-      for (const Numbers<n>& direction : directions_) {
-        if (is_free_at(direction, best_.distance)) {
-          approach(direction, before);
-          found = true;
-        }
-        if (found && best_.distance <= range.enough) break;
-      }
-      if (found) {
-        if (best_.distance > range.enough) look_beside();
-        return best_;
-      }
-      before = radius;
-    }
-    return std::nullopt;
-  }
-  Numbers<n> at(const Numbers<n>& direction, double distance) const {
-    Numbers<n> state = middle_;
-    for (std::size_t k = 0; k < n; ++k) state[k] += distance * direction[k];
-    return state;
-  }
-
- private:
-  bool is_free_at(const Numbers<n>& direction, double distance) const { return is_free_(at(direction, distance)); }
-  /// As near as it goes along a direction that is free at the best distance.
-  void approach(const Numbers<n>& direction, double blocked) {
+std::optional<FreeDirection<n>> nearest_free(const Numbers<n>& middle, std::span<const Numbers<n>> directions,
+                                             const FreeSearchRange& range, const IsFree& is_free) {
+  FreeDirection<n> best;
+  const auto is_free_at = [&](const Numbers<n>& direction, double distance) {
+    return is_free(state_at(middle, direction, distance));
+  };
+  // As near as it goes along a direction that is free at the best distance.
+  const auto approach = [&](const Numbers<n>& direction, double blocked) {
     for (int i = 0; i < 10; ++i) {
-      const double middle = 0.5 * (blocked + best_.distance);
-      (is_free_at(direction, middle) ? best_.distance : blocked) = middle;
+      const double between = 0.5 * (blocked + best.distance);
+      (is_free_at(direction, between) ? best.distance : blocked) = between;
     }
-    best_.direction = direction;
-  }
-  void look_beside() {
-    constexpr double gain = 1e-4;
-    for (double aside = 0.2; aside > 0.002; aside *= 0.5) {
-      for (const Numbers<n>& side : directions_.first(2 * n)) {
-        Numbers<n> direction = best_.direction;
-        double square = 0.0;
-        for (std::size_t k = 0; k < n; ++k) {
-          direction[k] += aside * side[k];
-          square += direction[k] * direction[k];
-        }
-        for (double& x : direction) x /= std::sqrt(square);
-        if (!is_free_at(direction, (1.0 - gain) * best_.distance)) continue;
-        best_.distance *= 1.0 - gain;
-        approach(direction, 0.9 * best_.distance);
+    best.direction = direction;
+  };
+  constexpr double growth = 1.25;
+  double before = 0.0;
+  bool found = false;
+  for (double radius = range.first; !found && radius <= range.farthest; radius *= growth) {
+    best.distance = radius;
+    for (const Numbers<n>& direction : directions) {
+      if (is_free_at(direction, best.distance)) {
+        approach(direction, before);
+        found = true;
       }
+      if (found && best.distance <= range.enough) return best;
+    }
+    before = radius;
+  }
+  if (!found) return std::nullopt;
+  constexpr double gain = 1e-4;
+  for (double aside = 0.2; aside > 0.002; aside *= 0.5) {
+    for (const Numbers<n>& side : directions.first(2 * n)) {
+      Numbers<n> direction = best.direction;
+      double square = 0.0;
+      for (std::size_t k = 0; k < n; ++k) {
+        direction[k] += aside * side[k];
+        square += direction[k] * direction[k];
+      }
+      for (double& x : direction) x /= std::sqrt(square);
+      if (!is_free_at(direction, (1.0 - gain) * best.distance)) continue;
+      best.distance *= 1.0 - gain;
+      approach(direction, 0.9 * best.distance);
     }
   }
-
-  Numbers<n> middle_;
-  std::span<const Numbers<n>> directions_;
-  const IsFree& is_free_;
-  FreeDirection<n> best_;
-};
+  return best;
+}
 
 /// x to a multiple of a power of ten between a hundredth and a tenth of `size` > 0.
 inline double in_few_digits(double x, double size) {
@@ -145,14 +134,13 @@ std::optional<Numbers<n>> nearest_free_in_few_digits(const Numbers<n>& middle, s
                                                      const FreeSearchRange& range, double size, const IsFree& is_free) {
   for (const double spare : {1e-2 * size, least_spare * size}) {
     const auto is_roomy = [&](const Numbers<n>& state) { return is_free(state, spare); };
-    NearestFree<n, decltype(is_roomy)> search(middle, directions, is_roomy);
-    const auto found = search.find(range);
+    const auto found = nearest_free(middle, directions, range, is_roomy);
     if (!found) continue;
     // Where a state is sought far from the middle that is there, what is near enough needs few digits, too.
     double scale = std::max(found->distance, 10.0 * range.enough);
     for (; scale > 0.1 * spare; scale *= 0.1) {
       for (double more = 0.0; more < 0.1 * scale; more += 0.02 * scale) {
-        Numbers<n> state = search.at(found->direction, found->distance + more);
+        Numbers<n> state = state_at(middle, found->direction, found->distance + more);
         for (double& x : state) x = in_few_digits(x, scale);
         if (is_free(state, 0.5 * spare)) return state;
       }

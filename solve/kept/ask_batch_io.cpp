@@ -256,10 +256,8 @@ std::string path_json(const Answer& answer) {
   return text + "]";
 }
 
-struct AnsweredChunk {
+struct AnsweredChunk : BatchAccount {
   std::string text;
-  std::uint64_t solved = 0;
-  std::uint64_t wrong = 0;
 };
 
 /// whole: nullptr where lengths alone are asked.
@@ -309,22 +307,13 @@ void add_answer(const RoadmapQuery& query, const BatchOptions& options, const Ba
                             : "{\"id\":" + question.json_id() + ",\"error\":" + json_string(error) + "}\n";
 }
 
-/// What the threads keep, one each.
-using Scratches = std::vector<QuestionScratch>;
-
-/// Calls each(question, which of the scratches is its thread's), each thread with questions that follow one another.
+/// Calls each(question, which of the threads has it), each thread with questions that follow one another.
 template <class Each>
-void deal(std::size_t questions, const Scratches& scratches, const Execution& execution, const Each& each) {
-  const std::size_t share = std::max<std::size_t>(1, chunk_count(questions, scratches.size()));
+void deal(std::size_t questions, std::size_t threads, const Execution& execution, const Each& each) {
+  const std::size_t share = std::max<std::size_t>(1, chunk_count(questions, threads));
   for_chunks(questions, share, execution, [&](Range r) {
     for (std::size_t i = r.first; i < r.last; ++i) each(i, r.first / share);
   });
-}
-
-Execution on_one_thread(const Execution& execution) {
-  Execution one_thread = execution.quiet();
-  one_thread.threads = 1;
-  return one_thread;
 }
 
 // Pairs whose lengths are held at once, where a line has fewer.
@@ -397,12 +386,13 @@ std::string json_line(const BatchQuestion& start, std::span<const Entry> row) {
 BatchAccount ask_batch(const RoadmapQuery& query, const InputFile& questions, const BatchOptions& options,
                        const Execution& execution, const std::function<void(std::string_view)>& write) {
   BatchQuestions reader(questions, BatchLines::questions, query.roadmap(), execution);
-  const Execution one_thread = on_one_thread(execution);
+  Execution one_thread = execution.quiet();
+  one_thread.threads = 1;
   BatchAccount account;
   write(!options.csv ? "" : options.lengths_only ? "id,status,length\n" : "id,status,length,verified\n");
   if (!options.lengths_only) query.prepare_paths(execution);
   std::vector<BatchQuestion> some;
-  Scratches scratch(thread_count(execution.threads));
+  std::vector<QuestionScratch> scratch(thread_count(execution.threads));
   for (QuestionScratch& one : scratch) one.search.tells_separation = false;  // which no line has
   while (reader.next(options.lengths_only ? length_block : path_block, some)) {
     for (const BatchQuestion& question : some) {
@@ -410,7 +400,7 @@ BatchAccount ask_batch(const RoadmapQuery& query, const InputFile& questions, co
       query.expect(question.goal, execution);
     }
     std::vector<AnsweredChunk> chunks(scratch.size());
-    deal(some.size(), scratch, execution, [&](std::size_t i, std::size_t chunk) {
+    deal(some.size(), scratch.size(), execution, [&](std::size_t i, std::size_t chunk) {
       add_answer(query, options, some[i], one_thread, scratch[chunk], chunks[chunk]);
     });
     for (const AnsweredChunk& chunk : chunks) {
@@ -429,7 +419,8 @@ MatrixAccount ask_matrix(const RoadmapQuery& query, const InputFile& starts, con
   BatchQuestions reader(starts, BatchLines::starts, query.roadmap(), execution);
   const std::vector<BatchQuestion> columns = all_places(goals, query.roadmap(), execution);
   const std::size_t width = columns.size();
-  const Execution one_thread = on_one_thread(execution);
+  Execution one_thread = execution.quiet();
+  one_thread.threads = 1;
   MatrixAccount account{.goals = width};
   std::string header = options.csv ? "id" : "";
   for (const BatchQuestion& goal : columns) {
@@ -437,7 +428,7 @@ MatrixAccount ask_matrix(const RoadmapQuery& query, const InputFile& starts, con
     if (options.csv) header.append(",").append(goal.csv_id());
   }
   write(options.csv ? header + "\n" : header);
-  Scratches scratch(thread_count(execution.threads));
+  std::vector<QuestionScratch> scratch(thread_count(execution.threads));
   std::vector<BatchQuestion> some;
   std::vector<Entry> entries;  // of these starts, row by row
   while (reader.next(std::clamp<std::size_t>(pairs_at_once / std::max<std::size_t>(width, 1), 1, most_starts), some)) {
@@ -447,7 +438,7 @@ MatrixAccount ask_matrix(const RoadmapQuery& query, const InputFile& starts, con
       for (const BatchQuestion& start : some) query.expect(start.start, execution);
       for (const BatchQuestion& goal : columns) query.expect(goal.start, execution);
     }
-    deal(entries.size(), scratch, execution, [&](std::size_t i, std::size_t chunk) {
+    deal(entries.size(), scratch.size(), execution, [&](std::size_t i, std::size_t chunk) {
       entries[i] = asked_pair(query, options, some[i / width], columns[i % width], one_thread, scratch[chunk]);
     });
     for (std::size_t i = 0; i < some.size(); ++i) {

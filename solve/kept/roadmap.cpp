@@ -131,13 +131,16 @@ bool add_changed_cells(const OccupancyMap& a, const OccupancyMap& b, std::vector
   return true;
 }
 
-std::vector<Segment> walls_of(const Scene& scene, const Execution& execution) {
-  execution.reserve(scene.walls.size() * sizeof(Segment));
-  std::vector<Segment> walls;
+using Ends = std::array<Vec2, 2>;
+
+std::vector<Ends> walls_of(const Scene& scene, const Execution& execution) {
+  execution.reserve(scene.walls.size() * sizeof(Ends));
+  std::vector<Ends> walls;
   walls.reserve(scene.walls.size());
   for (std::size_t i = 0; i < scene.walls.size(); ++i) {
     execution.poll(i);
-    walls.push_back(scene.walls.segment(i));
+    const Segment wall = scene.walls.segment(i);
+    walls.push_back({wall.a, wall.b});
   }
   return walls;
 }
@@ -148,21 +151,13 @@ std::vector<std::vector<Vec2>> outlines_of(const Scene& scene) {
   return outlines;
 }
 
-bool comes_before(const Segment& s, const Segment& t) {
-  return is_before(s.a, t.a) || (s.a == t.a && is_before(s.b, t.b));
-}
-bool comes_before(const std::vector<Vec2>& a, const std::vector<Vec2>& b) {
-  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), is_before);
-}
-
-Box box_of_shape(const Segment& wall) { return box_of(wall); }
-Box box_of_shape(const std::vector<Vec2>& corners) { return box_around(corners); }
-
-/// The boxes of the shapes that only one of the two has. False: these are too many.
+/// The boxes of the shapes, lists of corners, that only one of the two has. False: these are too many.
 template <class Shape>
 bool add_changed_shapes(std::vector<Shape> before, std::vector<Shape> now, std::vector<Box>& places,
                         const Execution& execution) {
-  const auto less = [](const Shape& a, const Shape& b) { return comes_before(a, b); };
+  const auto less = [](const Shape& a, const Shape& b) {
+    return std::ranges::lexicographical_compare(a, b, [](Vec2 p, Vec2 q) { return is_before(p, q); });
+  };
   for (std::vector<Shape>* shapes : {&before, &now}) polled_sort(shapes->begin(), shapes->end(), execution, less);
   auto a = before.begin();
   auto b = now.begin();
@@ -170,7 +165,7 @@ bool add_changed_shapes(std::vector<Shape> before, std::vector<Shape> now, std::
     execution.poll(steps);
     const bool is_old = a != before.end() && (b == now.end() || less(*a, *b));
     const bool is_new = !is_old && (a == before.end() || less(*b, *a));
-    if (is_old || is_new) places.push_back(box_of_shape(is_old ? *a : *b));
+    if (is_old || is_new) places.push_back(box_around(is_old ? *a : *b));
     if (places.size() > most_changed_places) return false;
     if (!is_new) ++a;
     if (!is_old) ++b;

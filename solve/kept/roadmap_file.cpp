@@ -152,23 +152,6 @@ constexpr std::size_t most_checked_whole = std::size_t{64} << 20;  // a few mill
 
 constexpr std::array<char, section_alignment> zeros{};
 
-std::vector<SectionPlace> places_of(std::span<const RoadmapSection> sections) {
-  assert(sections.size() <= most_sections);
-  std::vector<SectionPlace> places;
-  std::size_t blocks = 0;
-  for (const RoadmapSection& s : sections) {
-    assert(is_section_name(s.name) && s.type.is_legal() && s.bytes.size() % s.type.bytes() == 0);
-    places.push_back({std::string{s.name}, s.type, s.optional, 0, s.bytes.size() / s.type.bytes(), blocks});
-    blocks += places.back().blocks();
-  }
-  std::size_t offset = header_bytes(sections.size(), blocks);
-  for (SectionPlace& place : places) {
-    place.offset = offset;
-    offset = aligned(offset + place.bytes());
-  }
-  return places;
-}
-
 std::vector<std::uint64_t> checksums_of(std::span<const RoadmapSection> sections, const Execution& execution) {
   std::vector<std::span<const std::byte>> blocks;
   for (const RoadmapSection& s : sections) {
@@ -184,37 +167,39 @@ void put(std::string& bytes, std::size_t at, const T& value) {
   std::memcpy(bytes.data() + at, &value, sizeof value);
 }
 
-SectionEntry entry_of(const SectionPlace& place) {
-  SectionEntry entry{};
-  place.name.copy(entry.name.data(), entry.name.size());
-  entry.type = place.type;
-  entry.flags = place.optional ? optional_flag : 0;
-  entry.offset = place.offset;
-  entry.elements = place.elements;
-  return entry;
-}
-
-std::string header_of(const RoadmapFileHeader& header, std::span<const SectionPlace> places,
+/// sums: of the blocks of all sections.
+std::string header_of(const RoadmapFileHeader& header, std::span<const RoadmapSection> sections,
                       std::span<const std::uint64_t> sums) {
-  std::string bytes(header_bytes(places.size(), sums.size()), '\0');
+  assert(sections.size() <= most_sections);
+  std::string bytes(header_bytes(sections.size(), sums.size()), '\0');
+  std::size_t end = bytes.size();  // of what is before the next section
+  for (std::size_t i = 0; i < sections.size(); ++i) {
+    const RoadmapSection& s = sections[i];
+    assert(is_section_name(s.name) && s.type.is_legal() && s.bytes.size() % s.type.bytes() == 0);
+    SectionEntry entry{};
+    s.name.copy(entry.name.data(), entry.name.size());
+    entry.type = s.type;
+    entry.flags = s.optional ? optional_flag : 0;
+    entry.offset = end;
+    entry.elements = s.bytes.size() / s.type.bytes();
+    put(bytes, sizeof(FixedHeader) + i * sizeof entry, entry);
+    end = aligned(end + s.bytes.size());
+  }
   FixedHeader fixed{};
   roadmap_magic.copy(fixed.magic.data(), fixed.magic.size());
   fixed.major_version = roadmap_major;
   fixed.minor_version = roadmap_minor;
   fixed.byte_order = byte_order_mark;
-  fixed.file_bytes = places.empty() ? bytes.size() : aligned(places.back().offset + places.back().bytes());
-  fixed.sections = static_cast<std::uint32_t>(places.size());
+  fixed.file_bytes = end;
+  fixed.sections = static_cast<std::uint32_t>(sections.size());
   fixed.header_bytes = static_cast<std::uint32_t>(bytes.size());
   fixed.world_hash = header.world_hash;
   fixed.recipe_hash = header.recipe_hash;
   header.writer.copy(fixed.writer.data(), fixed.writer.size());
   put(bytes, 0, fixed);
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    put(bytes, sizeof fixed + i * sizeof(SectionEntry), entry_of(places[i]));
-  }
-  for (std::size_t i = 0; i < sums.size(); ++i) put(bytes, block_table(places.size()) + i * sizeof sums[i], sums[i]);
-  const std::size_t end = bytes.size() - sizeof(std::uint64_t);
-  put(bytes, end, checksum(std::as_bytes(std::span(bytes)).first(end)));
+  for (std::size_t i = 0; i < sums.size(); ++i) put(bytes, block_table(sections.size()) + i * sizeof sums[i], sums[i]);
+  const std::size_t summed = bytes.size() - sizeof(std::uint64_t);
+  put(bytes, summed, checksum(std::as_bytes(std::span(bytes)).first(summed)));
   return bytes;
 }
 
@@ -231,19 +216,8 @@ void write_section(OutputFile& file, std::span<const std::byte> bytes, const Exe
 
 }  // namespace
 
-RoadmapFile::RoadmapFile(const std::string& path, const Execution& execution)
-    : file_(path, execution), head_(HeaderReader(file_.name(), bytes()).read()), checked_(head_.blocks) {
-  check_opened(execution);
-}
-
-RoadmapFile::RoadmapFile(const std::string& name, std::string_view bytes_in_memory, const Execution& execution)
-    : file_(InputFile::of_bytes(name, bytes_in_memory)),
-      head_(HeaderReader(file_.name(), bytes()).read()),
-      checked_(head_.blocks) {
-  check_opened(execution);
-}
-
-void RoadmapFile::check_opened(const Execution& execution) const {
+RoadmapFile::RoadmapFile(const std::function<InputFile()>& open, const Execution& execution)
+    : file_(open()), head_(HeaderReader(file_.name(), bytes()).read()), checked_(head_.blocks) {
   for (const SectionPlace& place : head_.sections) {
     if (is_small() || place.blocks() == 1) check_section(place, execution.quiet());
   }
@@ -253,7 +227,7 @@ bool RoadmapFile::is_small() const { return bytes().size() <= most_checked_whole
 
 FirstLook RoadmapFile::first_look(const SectionPlace& place) const {
   const auto look = [](const void* file, std::size_t block) {
-    static_cast<const RoadmapFile*>(file)->check_block(block);
+    static_cast<const RoadmapFile*>(file)->check_blocks({block, block + 1}, {});
   };
   return {&checked_, place.first_block, checked_block, this, look};
 }
@@ -300,11 +274,6 @@ void RoadmapFile::check_blocks(Range blocks, const Execution& execution) const {
   if (first < blocks.size()) refuse(blocks.first + first);
 }
 
-void RoadmapFile::check_block(std::size_t block) const {
-  if (!is_sound(block)) refuse(block);
-  checked_.set(block);
-}
-
 bool RoadmapFile::is_sound(std::size_t block) const {
   std::uint64_t wanted = 0;
   const std::size_t at = block_table(head_.sections.size()) + block * sizeof wanted;
@@ -314,9 +283,7 @@ bool RoadmapFile::is_sound(std::size_t block) const {
 
 /// The last section that begins at this block: empty ones have none and come before it.
 const SectionPlace& RoadmapFile::place_of(std::size_t block) const {
-  const auto behind = std::upper_bound(head_.sections.begin(), head_.sections.end(), block,
-                                       [](std::size_t b, const SectionPlace& place) { return b < place.first_block; });
-  return *(behind - 1);
+  return *(std::ranges::upper_bound(head_.sections, block, {}, &SectionPlace::first_block) - 1);
 }
 
 std::span<const std::byte> RoadmapFile::bytes_of(const SectionPlace& place, std::size_t block) const {
@@ -335,10 +302,9 @@ void RoadmapFile::refuse(std::size_t block) const {
 
 void write_roadmap_file(OutputFile& file, const RoadmapFileHeader& header, std::span<const RoadmapSection> sections,
                         const Execution& execution) {
-  const std::vector<SectionPlace> places = places_of(sections);
-  const std::string head = header_of(header, places, checksums_of(sections, execution));
+  const std::string head = header_of(header, sections, checksums_of(sections, execution));
   std::size_t bytes = head.size();
-  for (const SectionPlace& place : places) bytes += place.bytes();
+  for (const RoadmapSection& section : sections) bytes += section.bytes.size();
   if (execution.progress != nullptr) execution.progress->begin("write", bytes);
   file.write(head);
   execution.advance(head.size());

@@ -13,7 +13,9 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <ranges>
 #include <span>
 #include <string>
 #include <string_view>
@@ -156,10 +158,11 @@ struct CheckedHeader {
 class RoadmapFile : NotCopied {
  public:
   /// Throws ReadError, InputError (which names the file, and the section where it is one's fault), Stopped.
-  RoadmapFile(const std::string& path, const Execution& execution);
+  RoadmapFile(const std::string& path, const Execution& execution)
+      : RoadmapFile([&] { return InputFile(path, execution); }, execution) {}
   /// Bytes that are in memory already, under the name that messages shall give: a copy.
   static RoadmapFile of_bytes(const std::string& name, std::string_view bytes, const Execution& execution) {
-    return {name, bytes, execution};
+    return {[&] { return InputFile::of_bytes(name, bytes); }, execution};
   }
 
   const std::string& name() const { return file_.name(); }
@@ -200,11 +203,9 @@ class RoadmapFile : NotCopied {
   void check_all(const Execution& execution) const;
 
  private:
-  RoadmapFile(const std::string& name, std::string_view bytes, const Execution& execution);
-  void check_opened(const Execution& execution) const;
+  RoadmapFile(const std::function<InputFile()>& open, const Execution& execution);
   const SectionPlace& required(std::string_view name, ElementType type) const;
   void check_blocks(Range blocks, const Execution& execution) const;
-  void check_block(std::size_t block) const;
   bool is_sound(std::size_t block) const;
   const SectionPlace& place_of(std::size_t block) const;
   std::span<const std::byte> bytes_of(const SectionPlace& place, std::size_t block) const;
@@ -229,9 +230,9 @@ struct RoadmapSection {
   bool optional = false;  ///< readers that don't know it may leave it out
 };
 
-template <FileElement T>
-RoadmapSection roadmap_section(std::string_view name, std::span<const T> elements, bool optional = false) {
-  return {name, element_type<T>(), std::as_bytes(elements), optional};
+template <std::ranges::contiguous_range Numbers>
+RoadmapSection roadmap_section(std::string_view name, const Numbers& numbers, bool optional = false) {
+  return {name, element_type<std::ranges::range_value_t<Numbers>>(), std::as_bytes(std::span(numbers)), optional};
 }
 
 /// Into a file that the caller completes and puts in its place: at most 64 sections, each of another name. Throws

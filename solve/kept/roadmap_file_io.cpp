@@ -38,14 +38,6 @@ std::uint64_t hash_number(std::string_view digits) {
   return number;
 }
 
-std::uint64_t hash_of(std::string_view text) { return checksum(std::as_bytes(std::span(text))); }
-
-void refuse_unknown_sections(const RoadmapFile& file) {
-  std::vector<std::string_view> known(std::begin(known_sections), std::end(known_sections));
-  for (const RouteSection& kind : route_section_kinds()) known.push_back(kind.name);
-  file.refuse_unknown(known);
-}
-
 template <class T>
 RawVector<T> copied(std::span<const T> numbers, const Execution& execution) {
   execution.reserve(numbers.size_bytes());
@@ -337,20 +329,12 @@ ConnectionRule read_rule(const MetaReader& meta) {
   return rule;
 }
 
-Json parsed(const std::string& where, std::string_view text) {
-  try {
-    Json json = Json::parse(text);
-    if (json.is_object()) return json;
-  } catch (const Json::exception&) {  // told below
-  }
-  throw InputError(where, "expected one JSON object");
-}
-
-/// What shapes a roadmap beside its world: body, options and seed. A part of meta, of which the header keeps a hash.
-std::string recipe_json(const Roadmap& roadmap, const Execution& execution) {
+/// Of what shapes a roadmap beside its world: body, options and seed. That is a part of meta.
+std::uint64_t recipe_hash(const Roadmap& roadmap, const Execution& execution) {
   JsonObject object(",\n ", ": ");
   add_recipe(object, roadmap, execution);
-  return object.closed();
+  const std::string recipe = object.closed();
+  return checksum(std::as_bytes(std::span(recipe)));
 }
 
 /// What a roadmap is, as one JSON object with its keys in their documented order. Numbers read back as the same
@@ -393,9 +377,12 @@ LatticeSize lattice_of(const std::string& where, const Json& json) {
 /// All that `meta` says of a roadmap, and its lattice: no scene, and of arrays their sizes. Throws InputError that
 /// names the section.
 Roadmap described(const RoadmapFile& file, const Execution& execution) {
-  refuse_unknown_sections(file);
+  std::vector<std::string_view> known(std::begin(known_sections), std::end(known_sections));
+  for (const RouteSection& kind : route_section_kinds()) known.push_back(kind.name);
+  file.refuse_unknown(known);
   const std::string where = fmt::format("{}: section meta", file.name());
-  const Json json = parsed(where, roadmap_meta(file, execution));
+  const Json json = Json::parse(roadmap_meta(file, execution), nullptr, false);
+  if (!json.is_object()) throw InputError(where, "expected one JSON object");
   const MetaReader meta(where, json);
   Roadmap roadmap;
   if (meta.text("schema") != schema) meta.fail("schema", schema);
@@ -456,7 +443,7 @@ void write_roadmap(const Roadmap& roadmap, OutputFile& file, const Execution& ex
   const RoadmapParts parts = roadmap.arrays.parts();
   const LatticePassages* lattice = roadmap.lattice != nullptr ? &roadmap.lattice->passages() : nullptr;
   HeldNumbers held;
-  std::vector<RoadmapSection> sections{roadmap_section("meta", std::span<const char>(meta))};
+  std::vector<RoadmapSection> sections{roadmap_section("meta", meta)};
   if (with_world) append_world_sections(roadmap.world.whole(execution), lattice, held, sections, execution);
   if (roadmap.lattice != nullptr) {
     append_lattice_sections(*roadmap.lattice, sections);
@@ -469,7 +456,7 @@ void write_roadmap(const Roadmap& roadmap, OutputFile& file, const Execution& ex
   append_hierarchy_sections(roadmap.arrays.hierarchy, held, sections, execution);
   static_assert(sizeof("warren " WARREN_VERSION) - 1 <= sizeof(FixedHeader::writer));
   const RoadmapFileHeader header{.world_hash = hash_number(roadmap.world_hash),
-                                 .recipe_hash = hash_of(recipe_json(roadmap, execution)),
+                                 .recipe_hash = recipe_hash(roadmap, execution),
                                  .writer = "warren " WARREN_VERSION};
   write_roadmap_file(file, header, sections, execution);
 }
@@ -488,7 +475,7 @@ Roadmap read_roadmap(std::unique_ptr<RoadmapFile> opened, const Execution& execu
   Roadmap roadmap = described(file, execution);
   roadmap.world =
       world ? given_world(file, std::move(*world), roadmap, execution) : world_inside(file, roadmap, execution);
-  if (file.header().recipe_hash != hash_of(recipe_json(roadmap, execution))) {
+  if (file.header().recipe_hash != recipe_hash(roadmap, execution)) {
     throw InputError(file.name(), "header and meta name different bodies or options");
   }
   if (roadmap.robot.files) {  // once for all questions

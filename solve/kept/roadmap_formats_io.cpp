@@ -252,24 +252,21 @@ void check_loadable(const RoadmapParts& parts, const ExportedEdgesView& edges, c
 
 using Shape = std::vector<std::uint64_t>;
 
-class NpzWriter {
+class NpzWriter : RoadmapExport {
  public:
-  explicit NpzWriter(const RoadmapExport& to) : to_(to), zip_(to.file) {}
+  explicit NpzWriter(const RoadmapExport& to) : RoadmapExport(to), zip_(file) {}
 
   void write() {
-    const std::uint64_t widest = std::max<std::uint64_t>(to_.parts.vertex_count(), to_.edges.count());
+    const std::uint64_t widest = std::max<std::uint64_t>(parts.vertex_count(), edges.count());
     widest <= std::numeric_limits<std::int32_t>::max() ? write_indices<std::int32_t>() : write_indices<std::int64_t>();
-    small("format", "|S3", {}, "csr");
-    std::string shape;
-    for (int axis = 0; axis < 2; ++axis) append_little_endian(shape, std::int64_t(to_.parts.vertex_count()));
-    small("shape", "<i8", {2}, shape);
-    of_edges<double>("data", "<f8", [&](const ExportedEdge& edge) { return to_.edges.length(edge); });
-    begin("states", "<f8", {to_.parts.vertex_count(), to_.parts.dimension}, sizeof(double));
-    of_span(to_.parts.states);
-    begin("component", "<u4", {to_.parts.vertex_count()}, sizeof(VertexId));
-    of_span(to_.parts.component);
-    if (to_.options.with_unchecked) {
-      of_edges<std::uint8_t>("edge_states", "|u1",
+    of_span("format", {}, std::span<const char>("csr", 3), "|S3");
+    const auto vertices = static_cast<std::int64_t>(parts.vertex_count());
+    of_span("shape", {2}, std::span<const std::int64_t>(std::array{vertices, vertices}));
+    of_edges<double>("data", [&](const ExportedEdge& edge) { return edges.length(edge); });
+    of_span("states", {parts.vertex_count(), parts.dimension}, parts.states);
+    of_span("component", {parts.vertex_count()}, parts.component);
+    if (options.with_unchecked) {
+      of_edges<std::uint8_t>("edge_states",
                              [](const ExportedEdge& edge) { return static_cast<std::uint8_t>(edge.state); });
     }
     zip_.close();
@@ -279,56 +276,49 @@ class NpzWriter {
   /// Index is int32, what SciPy calculates with, or int64 where that is too narrow.
   template <class Index>
   void write_indices() {
-    const std::string_view type = sizeof(Index) == 4 ? "<i4" : "<i8";
-    of_edges<Index>("indices", type, [](const ExportedEdge& edge) { return static_cast<Index>(edge.to); });
-    const std::size_t vertices = to_.parts.vertex_count();
+    of_edges<Index>("indices", [](const ExportedEdge& edge) { return static_cast<Index>(edge.to); });
+    const std::size_t vertices = parts.vertex_count();
     RawVector<Index> rows;  // of each vertex the number of the first edge from it or from a later one; then of all
-    to_.execution.reserve((vertices + 1) * sizeof(Index));
+    execution.reserve((vertices + 1) * sizeof(Index));
     rows.reserve(vertices + 1);
-    for (std::size_t first = 0; first < to_.edges.ends(); first += to_.edges.grain) {
-      to_.execution.check();
-      to_.edges.visit({first, std::min(first + to_.edges.grain, to_.edges.ends())}, [&](const ExportedEdge& edge) {
+    for (std::size_t first = 0; first < edges.ends(); first += edges.grain) {
+      execution.check();
+      edges.visit({first, std::min(first + edges.grain, edges.ends())}, [&](const ExportedEdge& edge) {
         if (rows.size() <= edge.from) rows.resize(std::size_t{edge.from} + 1, static_cast<Index>(edge.number));
       });
     }
-    rows.resize(vertices + 1, static_cast<Index>(to_.edges.count()));
-    begin("indptr", type, {rows.size()}, sizeof(Index));
-    of_span(std::span<const Index>(rows));
+    rows.resize(vertices + 1, static_cast<Index>(edges.count()));
+    of_span("indptr", {rows.size()}, std::span<const Index>(rows));
   }
-  void begin(const std::string& name, std::string_view type, const Shape& shape, std::uint64_t bytes_a_number) {
-    std::uint64_t bytes = bytes_a_number;
-    for (const std::uint64_t extent : shape) bytes *= extent;
+  /// bytes: of the numbers that follow.
+  void begin(const std::string& name, const Shape& shape, std::string_view type, std::uint64_t bytes) {
     const std::string header = npy_header(type, shape);
     zip_.begin(name + ".npy", header.size() + bytes);
     zip_.write(header);
   }
-  void small(const std::string& name, std::string_view type, const Shape& shape, std::string_view bytes) {
-    begin(name, type, shape, shape.empty() ? bytes.size() : bytes.size() / shape.front());
-    zip_.write(bytes);
-    zip_.end();
-  }
   /// One number an edge.
   template <class Number, class Value>
-  void of_edges(const std::string& name, std::string_view type, const Value& value) {
-    begin(name, type, {to_.edges.count()}, sizeof(Number));
-    write_in_pieces(zip_, to_.edges.ends(), to_.edges.grain, to_.execution, [&](Range range, std::string& bytes) {
-      to_.edges.visit(range, [&](const ExportedEdge& edge) { append_little_endian<Number>(bytes, value(edge)); });
+  void of_edges(const std::string& name, const Value& value) {
+    begin(name, {edges.count()}, element_type<Number>().name(), edges.count() * sizeof(Number));
+    write_in_pieces(zip_, edges.ends(), edges.grain, execution, [&](Range range, std::string& bytes) {
+      edges.visit(range, [&](const ExportedEdge& edge) { append_little_endian<Number>(bytes, value(edge)); });
     });
     zip_.end();
   }
   template <class Number>
-  void of_span(std::span<const Number> numbers) {
+  void of_span(const std::string& name, const Shape& shape, std::span<const Number> numbers,
+               std::string_view type = element_type<Number>().name()) {
+    begin(name, shape, type, numbers.size_bytes());
     constexpr std::size_t block = std::size_t{1} << 17;
     for (std::size_t first = 0; first < numbers.size(); first += block) {
-      to_.execution.check();
+      execution.check();
       const std::span<const Number> some = numbers.subspan(first, std::min(block, numbers.size() - first));
       zip_.write({reinterpret_cast<const char*>(some.data()), some.size_bytes()});
-      to_.execution.advance(some.size());
+      execution.advance(some.size());
     }
     zip_.end();
   }
 
-  const RoadmapExport& to_;
   StoredZip zip_;
 };
 
@@ -342,7 +332,6 @@ constexpr std::uint16_t zip64_field = 1;
 constexpr std::uint16_t nothing_16 = 0;
 constexpr std::uint32_t nothing_32 = 0;
 constexpr std::uint64_t nothing_64 = 0;
-constexpr std::uint32_t said_in_zip64 = 0xffffffff;
 
 /// The fields of a record, one after the other, each as wide as its type.
 template <class... Fields>
@@ -524,10 +513,6 @@ ExportAccount export_of_roadmap(const Roadmap& roadmap, const std::string& path,
   const RoadmapQuery query(roadmap, execution, Questions::one);
   const auto length = [&](VertexId v, VertexId w) { return query.distance(v, w); };
   return export_roadmap(path, roadmap.arrays.parts(), VertexDistance(length), options, execution);
-}
-
-std::uint32_t StoredZip::short_form(std::uint64_t number) const {
-  return is_long(number) ? said_in_zip64 : static_cast<std::uint32_t>(number);
 }
 
 void StoredZip::put(std::string_view bytes) {

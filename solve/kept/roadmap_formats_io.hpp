@@ -61,8 +61,11 @@ class StoredZip {
     std::uint32_t check_sum = 0;
     std::uint64_t written = 0;
   };
+  static constexpr std::uint32_t said_in_zip64 = 0xffffffff;
   bool is_long(std::uint64_t number) const { return number >= zip64_from_; }
-  std::uint32_t short_form(std::uint64_t number) const;
+  std::uint32_t short_form(std::uint64_t number) const {
+    return is_long(number) ? said_in_zip64 : static_cast<std::uint32_t>(number);
+  }
   void append_entry(std::string& text, const Member& member) const;
   void put(std::string_view bytes);
 

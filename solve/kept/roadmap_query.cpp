@@ -82,17 +82,16 @@ class LatticeQuestion {
         query_(query ? *query : query.emplace(index)),
         execution_(execution) {
     if (!link(0, problem.start)) {
-      outcome_ = Outcome::start_blocked;
+      outcome = Outcome::start_blocked;
     } else if (!link(1, problem.goal)) {
-      outcome_ = Outcome::goal_blocked;
+      outcome = Outcome::goal_blocked;
     } else {
       join();
     }
   }
 
-  Outcome outcome() const { return outcome_; }
-  /// Only for solved.
-  double length() const { return length_; }
+  Outcome outcome = Outcome::not_connected;
+  double length = 0.0;  ///< only for solved
   /// Start, cells, goal.
   Path<Vec2> path() const {
     if (direct_) return {problem_.start, problem_.goal};
@@ -142,9 +141,9 @@ class LatticeQuestion {
     std::sort(near.begin(), near.end());
     constexpr std::size_t farthest = 256;
     near.resize(std::min(near.size(), farthest));
-    for (const auto& [length, cell] : near) {
-      if (length > 1.0 && !links_[end].empty()) break;
-      if (world.is_free_motion(p, lattice_point(size, cell), query)) links_[end].emplace_back(length, cell);
+    for (const auto& [away, cell] : near) {
+      if (away > 1.0 && !links_[end].empty()) break;
+      if (world.is_free_motion(p, lattice_point(size, cell), query)) links_[end].emplace_back(away, cell);
     }
     return true;
   }
@@ -168,8 +167,8 @@ class LatticeQuestion {
       if (direct_) best = straight;
     }
     if (!std::isfinite(best)) return;
-    outcome_ = Outcome::solved;
-    length_ = best;
+    outcome = Outcome::solved;
+    length = best;
   }
 
   const WallsNearEnds& near_;
@@ -178,8 +177,6 @@ class LatticeQuestion {
   RouteQuery& query_;
   const Execution& execution_;
   std::vector<Link> links_[2];
-  Outcome outcome_ = Outcome::not_connected;
-  double length_ = 0.0;
   bool direct_ = false;
   CellId from_ = 0;
   CellId to_ = 0;
@@ -208,7 +205,90 @@ struct RoadmapQuery::Opened {
 
 /// Of a lattice: what looks at its walls, for ends that are no milestones and for the judge of paths.
 struct RoadmapQuery::Walls {
-  explicit Walls(const Roadmap& roadmap) : near_ends(roadmap.world, roadmap.clearance + roadmap.robot.radius) {}
+  Walls(const Roadmap& of, Questions what)
+      : roadmap(of), questions(what), near_ends(of.world, of.clearance + of.robot.radius) {}
+  /// nullptr where the walls can't be looked up.
+  const KeptCells* looked_up(const Execution& execution) const {
+    if (const KeptCells* kept = roadmap.world.looked_up(execution); kept != nullptr) return kept;
+    if (questions == Questions::one) return nullptr;
+    const auto make = [&] {
+      return std::make_unique<std::unique_ptr<KeptCells>>(cells_of_scene(roadmap.world.whole(execution), execution));
+    };
+    return cells.get(execution, make).get();
+  }
+  /// By walls that are looked up, by an index, or by a pass over all obstacles.
+  PointJudge judge_of(const WallProblem& problem, const Execution& execution) const {
+    if (const KeptCells* kept = looked_up(execution)) {
+      return {roadmap.world.outline(), problem, execution, nullptr, kept->walls.get()};
+    }
+    const Scene& scene = roadmap.world.whole(execution);
+    const auto make = [&] { return std::make_unique<ObstacleIndex>(scene, execution); };
+    const bool is_indexed = questions != Questions::one && scene.walls.size() <= most_indexed_walls;
+    return {scene, problem, execution, is_indexed ? &judged.get(execution, make) : nullptr};
+  }
+  Answer ask(const Question& question, const RoadmapSearchFields& how, const Execution& execution,
+             QuestionScratch& scratch) const {
+    refuse_search(how);
+    const WallProblem problem = wall_problem(roadmap.world.outline(), question);
+    Answer answer;
+    describe_roadmap_planner(answer, roadmap.world.outline(), problem, roadmap.options);
+    answer.search.clear();
+    answer.pipeline.clear();
+    answer.figures.push_back({"index", std::string("route")});
+    try {
+      answer_within_limits(answer, [&] {
+        {
+          const StageTimer timer(execution, "search", answer.seconds.search);
+          const LatticeQuestion asked(near_ends, problem, *roadmap.lattice, scratch.route, execution);
+          answer.outcome = asked.outcome;
+          answer.roadmap.milestones = count_states(roadmap) + 2;
+          if (answer.outcome == Outcome::solved) answer.path = asked.path();
+        }
+        settle_and_verify(answer, problem, how.optimise, execution, scratch);
+      });
+    } catch (const RefutedPathError& error) {
+      refuse_roadmap(roadmap, error);
+    }
+    const Scene* scene = &roadmap.world.outline();
+    try {
+      if (how.bound) scene = &roadmap.world.whole(execution);
+    } catch (const Stopped&) {  // the simple bound is left
+    }
+    tell_bound(answer, *scene, {.bound = how.bound}, execution);
+    tell_process(answer, execution);
+    return answer;
+  }
+  void settle_and_verify(Answer& answer, const WallProblem& problem, bool optimise, const Execution& execution,
+                         const QuestionScratch& scratch) const {
+    const PointJudge judge = judge_of(problem, execution);
+    answer.world = account_of(judge.scene, roadmap.world_hash);
+    if (judge.cells != nullptr) answer.world.walls = looked_up(execution)->wall_count;
+    if (optimise && answer.outcome == Outcome::solved) {
+      const Scene& whole = roadmap.world.whole(execution);
+      const StageTimer timer(execution, "optimise", answer.seconds.optimise, answer.path.size());
+      const MazeWorld world(whole, problem.reach(), execution);
+      answer.raw_length = path_length(answer.path, MazeWorld::distance);
+      answer.path = taut_path(world.walls(), answer.path, world.planning_clearance(), execution);
+    }
+    answer.outcome = judge.settled(answer.outcome);
+    if (answer.outcome != Outcome::solved) return;
+    double seconds = 0.0;  // of the judge alone; the answer does not change while somebody else looks at it
+    Verification verdict;
+    const auto judge_path = [&] {
+      const StageTimer timer(execution, "verify", seconds, answer.path.size());
+      verdict = judge.judged(answer.path, verify_options(problem));
+    };
+    const auto beside = [&](Range r) {
+      if (r.first == 1) return judge_path();
+      scratch.beside_judge(answer);
+    };
+    scratch.beside_judge ? for_chunks(2, 1, execution.quiet(), beside) : judge_path();
+    answer.seconds.verify += seconds;
+    take_verdict(answer, verdict);
+  }
+
+  const Roadmap& roadmap;
+  Questions questions;
   WallsNearEnds near_ends;
   MadeOnce<std::unique_ptr<KeptCells>> cells;  // of walls that are held
   MadeOnce<ObstacleIndex> judged;
@@ -219,9 +299,8 @@ RoadmapQuery::RoadmapQuery(const Roadmap& roadmap, const Limits& limits)
 
 RoadmapQuery::RoadmapQuery(const Roadmap& roadmap, const Execution& execution, Questions questions)
     : roadmap_(roadmap),
-      questions_(questions),
       opened_(roadmap.lattice != nullptr ? nullptr : std::make_unique<Opened>(roadmap, execution, questions)),
-      walls_(roadmap.lattice != nullptr ? std::make_unique<Walls>(roadmap) : nullptr) {}
+      walls_(roadmap.lattice != nullptr ? std::make_unique<Walls>(roadmap, questions) : nullptr) {}
 
 RoadmapQuery::~RoadmapQuery() = default;
 
@@ -251,7 +330,7 @@ Answer RoadmapQuery::ask_within(const std::vector<double>& start, const std::vec
                                 const RoadmapSearchFields& how, const Execution& execution, QuestionScratch& scratch,
                                 ByProducts* keep) const {
   const Question question = question_to_one(roadmap_, start, goal);
-  if (roadmap_.lattice != nullptr) return ask_lattice(question, how, execution, scratch);
+  if (walls_ != nullptr) return walls_->ask(question, how, execution, scratch);
   SolveOptions options = roadmap_.options;
   for (const Option option : question_options.members()) copy_option(option, options, how);
   if (how.roadmap.attach) options.roadmap.attach = how.roadmap.attach;
@@ -282,100 +361,18 @@ Answer RoadmapQuery::ask_within(const std::vector<double>& start, const std::vec
   return answer;
 }
 
-const KeptCells* RoadmapQuery::cells_of_lattice(const Execution& execution) const {
-  if (const KeptCells* cells = roadmap_.world.looked_up(execution); cells != nullptr) return cells;
-  if (questions_ == Questions::one) return nullptr;
-  const auto make = [&] {
-    return std::make_unique<std::unique_ptr<KeptCells>>(cells_of_scene(roadmap_.world.whole(execution), execution));
-  };
-  return walls_->cells.get(execution, make).get();
-}
-
-PointJudge RoadmapQuery::judge_of_lattice(const WallProblem& problem, const Execution& execution) const {
-  if (const KeptCells* cells = cells_of_lattice(execution)) {
-    return {roadmap_.world.outline(), problem, execution, nullptr, cells->walls.get()};
-  }
-  const Scene& scene = roadmap_.world.whole(execution);
-  const auto make = [&] { return std::make_unique<ObstacleIndex>(scene, execution); };
-  const bool is_indexed = questions_ != Questions::one && scene.walls.size() <= most_indexed_walls;
-  return {scene, problem, execution, is_indexed ? &walls_->judged.get(execution, make) : nullptr};
-}
-
 void RoadmapQuery::prepare_paths(const Execution& execution) const {
-  if (roadmap_.lattice != nullptr) judge_of_lattice({}, execution);
+  if (walls_ != nullptr) walls_->judge_of({}, execution);
 }
 
 double RoadmapQuery::clearance_at(Vec2 place, const Execution& execution) const {
   const VerifyOptions options{.radius = roadmap_.robot.radius, .clearance = roadmap_.clearance};
-  const WallProblem any;
-  return judge_of_lattice(any, execution).judged({&place, 1}, options).min_clearance;
+  return walls_->judge_of({}, execution).judged({&place, 1}, options).min_clearance;
 }
 
 void RoadmapQuery::expect(const std::vector<double>& place, const Execution& execution) const {
   if (roadmap_.lattice == nullptr || place.size() != 2) return;
   if (!lattice_cell(*roadmap_.lattice, {place[0], place[1]})) walls_->near_ends.expect(execution);
-}
-
-Answer RoadmapQuery::ask_lattice(const Question& question, const RoadmapSearchFields& how, const Execution& execution,
-                                 QuestionScratch& scratch) const {
-  refuse_search(how);
-  const WallProblem problem = wall_problem(roadmap_.world.outline(), question);
-  Answer answer;
-  describe_roadmap_planner(answer, roadmap_.world.outline(), problem, roadmap_.options);
-  answer.search.clear();
-  answer.pipeline.clear();
-  answer.figures.push_back({"index", std::string("route")});
-  try {
-    answer_within_limits(answer, [&] {
-      {
-        const StageTimer timer(execution, "search", answer.seconds.search);
-        const LatticeQuestion asked(walls_->near_ends, problem, *roadmap_.lattice, scratch.route, execution);
-        answer.outcome = asked.outcome();
-        answer.roadmap.milestones = count_states(roadmap_) + 2;
-        if (answer.outcome == Outcome::solved) answer.path = asked.path();
-      }
-      settle_and_verify(answer, problem, how.optimise, execution, scratch);
-    });
-  } catch (const RefutedPathError& error) {
-    refuse_roadmap(roadmap_, error);
-  }
-  const Scene* scene = &roadmap_.world.outline();
-  try {
-    if (how.bound) scene = &roadmap_.world.whole(execution);
-  } catch (const Stopped&) {  // the simple bound is left
-  }
-  tell_bound(answer, *scene, {.bound = how.bound}, execution);
-  tell_process(answer, execution);
-  return answer;
-}
-
-void RoadmapQuery::settle_and_verify(Answer& answer, const WallProblem& problem, bool optimise,
-                                     const Execution& execution, const QuestionScratch& scratch) const {
-  const PointJudge judge = judge_of_lattice(problem, execution);
-  answer.world = account_of(judge.scene, roadmap_.world_hash);
-  if (judge.cells != nullptr) answer.world.walls = cells_of_lattice(execution)->wall_count;
-  if (optimise && answer.outcome == Outcome::solved) {
-    const Scene& whole = roadmap_.world.whole(execution);
-    const StageTimer timer(execution, "optimise", answer.seconds.optimise, answer.path.size());
-    const MazeWorld world(whole, problem.reach(), execution);
-    answer.raw_length = path_length(answer.path, MazeWorld::distance);
-    answer.path = taut_path(world.walls(), answer.path, world.planning_clearance(), execution);
-  }
-  answer.outcome = judge.settled(answer.outcome);
-  if (answer.outcome != Outcome::solved) return;
-  double seconds = 0.0;  // of the judge alone; the answer does not change while somebody else looks at it
-  Verification verdict;
-  const auto judge_path = [&] {
-    const StageTimer timer(execution, "verify", seconds, answer.path.size());
-    verdict = judge.judged(answer.path, verify_options(problem));
-  };
-  const auto beside = [&](Range r) {
-    if (r.first == 1) return judge_path();
-    scratch.beside_judge(answer);
-  };
-  scratch.beside_judge ? for_chunks(2, 1, execution.quiet(), beside) : judge_path();
-  answer.seconds.verify += seconds;
-  take_verdict(answer, verdict);
 }
 
 LengthAnswer RoadmapQuery::length_within(const std::vector<double>& start, const std::vector<double>& goal,
@@ -390,7 +387,7 @@ LengthAnswer RoadmapQuery::length_within(const std::vector<double>& start, const
   refuse_search(how);
   const WallProblem problem = wall_problem(roadmap_.world.outline(), question_to_one(roadmap_, start, goal));
   const LatticeQuestion asked(walls_->near_ends, problem, *roadmap_.lattice, scratch.route, execution);
-  return {asked.outcome(), asked.length()};
+  return {asked.outcome, asked.length};
 }
 
 std::span<const std::uint64_t> RoadmapQuery::edge_states() const { return opened_->session->edge_states(); }

@@ -20,8 +20,6 @@
 
 namespace warren {
 
-struct PointJudge;  // solve/kinds/solve_steps.hpp
-
 /// What a question may say beside its ends: asked_options. All others are the roadmap's, whatever is said here.
 using RoadmapSearchFields = SolveOptions;
 
@@ -88,16 +86,7 @@ class RoadmapQuery : NotCopied {
  private:
   struct Opened;
   struct Walls;
-  Answer ask_lattice(const Question& question, const RoadmapSearchFields& how, const Execution& execution,
-                     QuestionScratch& scratch) const;
-  /// nullptr where the walls can't be looked up.
-  const KeptCells* cells_of_lattice(const Execution& execution) const;
-  /// By walls that are looked up, by an index, or by a pass over all obstacles.
-  PointJudge judge_of_lattice(const WallProblem& problem, const Execution& execution) const;
-  void settle_and_verify(Answer& answer, const WallProblem& problem, bool optimise, const Execution& execution,
-                         const QuestionScratch& scratch) const;
   const Roadmap& roadmap_;
-  const Questions questions_;
   std::unique_ptr<Opened> opened_;  // nullptr for a lattice
   std::unique_ptr<Walls> walls_;    // nullptr but for a lattice
 };

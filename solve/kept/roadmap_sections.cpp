@@ -80,9 +80,7 @@ template <class T>
 void check_walls(const RoadmapFile& file, std::string_view section, std::span<const T> numbers,
                  const Execution& execution) {
   if (numbers.size() % 4 != 0) refuse(file, section, "expected four numbers a wall");
-  const auto is_wrong = [&](std::size_t i) {
-    return !(std::abs(static_cast<double>(numbers[i])) <= largest_coordinate);
-  };
+  const auto is_wrong = [&](std::size_t i) { return !is_coordinate(numbers[i]); };
   if (first_that(numbers.size(), wall_grain, execution, is_wrong) == numbers.size()) return;
   refuse(file, section, "expected numbers of at most 1e60");
 }
@@ -128,7 +126,6 @@ OccupancyMap read_map(const RoadmapFile& file, const Execution& execution) {
   map.occupied = size[4];
   map.unknown_count = size[5];
   map.between = size[6];
-  const auto is_coordinate = [](double x) { return std::abs(x) <= largest_coordinate; };
   if (!(place[0] > 0.0) || !std::all_of(place.begin(), place.begin() + 4, is_coordinate)) {
     refuse(file, "map.place", "expected a cell above 0 and numbers of at most 1e60");
   }
@@ -145,7 +142,7 @@ void append_walls(const Scene& scene, HeldNumbers& held, std::vector<RoadmapSect
                   const Execution& execution) {
   if (auto bits = maze_bits(scene, execution)) {
     held.maze = std::move(*bits);
-    return sections.push_back(roadmap_section("maze.walls", std::span<const std::uint64_t>(held.maze)));
+    return sections.push_back(roadmap_section("maze.walls", held.maze));
   }
   const auto append = [&]<class T>(std::span<const WallOf<T>> walls) {
     const T* const numbers = walls.empty() ? nullptr : &walls.front().x1;
@@ -197,13 +194,10 @@ void append_hierarchy_sections(const Hierarchy& hierarchy, HeldNumbers& held, st
     held.middle[i] = hierarchy.arcs[i].middle;
     held.length[i] = hierarchy.arcs[i].length;
   });
-  const auto add = [&]<class T>(std::string_view name, const RawVector<T>& numbers) {
-    sections.push_back(roadmap_section(name, std::span<const T>(numbers), true));
-  };
-  add("up.first", hierarchy.first);
-  add("up.to", held.to);
-  add("up.middle", held.middle);
-  add("up.length", held.length);
+  sections.push_back(roadmap_section("up.first", hierarchy.first, true));
+  sections.push_back(roadmap_section("up.to", held.to, true));
+  sections.push_back(roadmap_section("up.middle", held.middle, true));
+  sections.push_back(roadmap_section("up.length", held.length, true));
 }
 
 void append_lattice_sections(const RouteIndex& index, std::vector<RoadmapSection>& sections) {
@@ -238,10 +232,10 @@ void append_world_sections(const Scene& scene, const LatticePassages* lattice, H
                            std::vector<RoadmapSection>& sections, const Execution& execution) {
   write_scene_text(
       without_arrays(scene), [&](std::string_view text) { held.text.append(text); }, execution);
-  sections.push_back(roadmap_section("world.text", std::span<const char>(held.text)));
+  sections.push_back(roadmap_section("world.text", held.text));
   if (lattice == nullptr || !has_walls_of(*lattice, scene, execution)) append_walls(scene, held, sections, execution);
   for (const Segment& s : scene.seams) held.seams.insert(held.seams.end(), {s.a.x, s.a.y, s.b.x, s.b.y});
-  sections.push_back(roadmap_section("world.seams", std::span<const double>(held.seams)));
+  sections.push_back(roadmap_section("world.seams", held.seams));
   if (!scene.map) return;
   const OccupancyMap& map = *scene.map;
   held.map_place = {map.cell, map.origin.x, map.origin.y, map.yaw_rad};
@@ -249,8 +243,8 @@ void append_world_sections(const Scene& scene, const LatticePassages* lattice, H
   add_point(held.map_place, map.goal);
   held.map_size = {map.width(),       map.height(), static_cast<std::uint64_t>(map.format), map.free, map.occupied,
                    map.unknown_count, map.between};
-  sections.push_back(roadmap_section("map.place", std::span<const double>(held.map_place)));
-  sections.push_back(roadmap_section("map.size", std::span<const std::uint64_t>(held.map_size)));
+  sections.push_back(roadmap_section("map.place", held.map_place));
+  sections.push_back(roadmap_section("map.size", held.map_size));
   sections.push_back(roadmap_section("map.blocked", map.blocked.words()));
   if (!map.unknown.empty()) sections.push_back(roadmap_section("map.unknown", map.unknown.words()));
   if (!map.water.empty()) sections.push_back(roadmap_section("map.water", map.water.words()));

@@ -58,7 +58,13 @@ class CarLattice {
         start_(start),
         goals_(goals.begin(), goals.end()),
         cell_(cell_of(scene, box_of(body, start), start, robot.turning_radius, options)),
-        motions_(motion_options(robot, options, cell_), execution),
+        motions_({.headings = options.headings,
+                  .turning_radius = robot.turning_radius / cell_,
+                  .reverses = robot.steering != SteeringKind::dubins,
+                  .turns_on_spot = robot.steering == SteeringKind::differential,
+                  .reverse_cost = options.price.reverse,
+                  .turn_cost = options.turn_cost / cell_},
+                 execution),
         query_(body.make_query()),
         prices_(options.prices) {
     lay_out(scene, start);
@@ -245,14 +251,6 @@ class CarLattice {
         fmt::format("@cell: {} is too small: the world has {:.6g} x {:.6g} such cells, and {:.0e} are the "
                     "most that a lattice of a car has",
                     cell, extent.wide, extent.high, most));
-  }
-  static MotionSetOptions motion_options(const RobotSpec& robot, const CarLatticeOptions& options, double cell) {
-    return {.headings = options.headings,
-            .turning_radius = robot.turning_radius / cell,
-            .reverses = robot.steering != SteeringKind::dubins,
-            .turns_on_spot = robot.steering == SteeringKind::differential,
-            .reverse_cost = options.price.reverse,
-            .turn_cost = options.turn_cost / cell};
   }
   /// Of the last piece that is driven; a curve of none ends forwards.
   static std::int8_t last_gear(const SteeringWord& word) {

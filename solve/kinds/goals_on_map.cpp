@@ -71,7 +71,11 @@ class Choosing {
     first_ = stay_in_region();
     if (!first_) first_ = ways_.cheapest(problem_.start, ends_);
     if (first_) return true;
-    return rule_.tolerance ? take_nearest() : fail();
+    const auto found = rule_.tolerance ? nearest() : std::nullopt;
+    if (!found || !(found->first.distance <= *rule_.tolerance)) return fail();
+    ends_ = {ways_.entry(found->first.place, found->first.cell, found->second)};
+    first_ = ways_.cheapest(problem_.start, ends_);
+    return first_ ? true : fail();
   }
 
   /// Whoever starts in a region is there.
@@ -91,14 +95,6 @@ class Choosing {
       if (place && (!best || place->distance < best->first.distance)) best = {*place, i};
     }
     return best;
-  }
-
-  bool take_nearest() {
-    const auto found = nearest();
-    if (!found || !(found->first.distance <= *rule_.tolerance)) return fail();
-    ends_ = {ways_.entry(found->first.place, found->first.cell, found->second)};
-    first_ = ways_.cheapest(problem_.start, ends_);
-    return first_ ? true : fail();
   }
 
   /// What is said where nothing that was asked can be reached: the whole is looked at before it is called so.

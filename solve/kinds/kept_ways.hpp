@@ -142,21 +142,20 @@ class KeptWays : NotCopied {
     const double kept = distances != nullptr ? distances->kept_cells() : 0.0;
     const auto cell = [](Vec2 at) { return Cell{static_cast<std::uint32_t>(at.x), static_cast<std::uint32_t>(at.y)}; };
     const std::vector<Box> ranges = ranges_of(changed, std::floor(2.0 * kept));
+    double reach = problem.reach() / map_.cell;
     for (const Box& r : ranges) prices_->renew(cell(r.min), cell(r.max), execution);
     if (distances != nullptr) {
       for (const Box& r : ranges) {
-        const double reach = problem.reach() / map_.cell;
         renew_for_disc(wide, map_.blocked, *distances, reach, cell(r.min), cell(r.max), execution);
       }
     } else {
-      wide = blocked_for_disc(map_.blocked, problem.reach() / map_.cell, execution);
+      wide = blocked_for_disc(map_.blocked, reach, execution);
     }
     const auto poll = [&] { execution.check(); };
     for_each_differing(wide, wide_, poll, [&](Cell c) { weights_->change(c, !wide.test(c.x, c.y)); });
     wide_ = std::move(wide);
     // What a step weighs rests on the squares within the reach of its two cells; which steps there are on the cells
     // around, of which a square closes those within the body's reach.
-    double reach = problem.reach() / map_.cell;
     if (const auto& clearance = problem.prices.clearance) {
       reach = std::max(reach, (clearance_reach(*clearance, problem.robot.radius) + problem.robot.radius) / map_.cell);
     }

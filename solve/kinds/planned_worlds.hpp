@@ -26,20 +26,6 @@ namespace warren {
 template <class State>
 using MotionLength = std::function<double(const State&, const State&)>;
 
-/// shortcut_path() and improve_path().
-template <class State, bool one_way>
-Path<State> shorter_path(const AnyWorld<State, one_way>& world, Path<State> path,
-                         const MotionLength<std::type_identity_t<State>>& length, const ShortcutOptions& options,
-                         const Execution& execution, Counters& counters) {
-  return shortcut_path(world, std::move(path), length, options, execution, counters);
-}
-template <class State, bool one_way>
-Path<State> improved_path(const AnyWorld<State, one_way>& world, Path<State> path,
-                          const MotionLength<std::type_identity_t<State>>& length, const ImproveOptions& options,
-                          const Execution& execution, Counters& counters) {
-  return improve_path(world, std::move(path), length, options, execution, counters);
-}
-
 /// prm or lazy_prm, and where ways lead one way one_way_prm.
 template <class State, bool one_way>
 Solution<State> planned_on_roadmap(const AnyWorld<State, one_way>& world, const State& start, const State& goal,
@@ -55,14 +41,16 @@ Solution<State> planned_on_roadmap(const AnyWorld<State, one_way>& world, const 
 /// The planners of a kind of state.
 template <class State, bool one_way>
 struct Planned {
+  using Any = AnyWorld<State, one_way>;
+  using Length = MotionLength<State>;
   decltype(planned_on_roadmap<State, one_way>)* on_roadmap = planned_on_roadmap<State, one_way>;
   decltype(warren::rrt<State, one_way>)* rrt = warren::rrt<State, one_way>;
   decltype(warren::rrt_connect<State, one_way>)* rrt_connect = warren::rrt_connect<State, one_way>;
   decltype(warren::anytime<State, one_way>)* anytime = warren::anytime<State, one_way>;
-  decltype(ask_roadmap<AnyWorld<State, one_way>>)* ask = ask_roadmap<AnyWorld<State, one_way>>;
+  decltype(ask_roadmap<Any>)* ask = ask_roadmap<Any>;
   decltype(build_roadmap<State, one_way>)* build = build_roadmap<State, one_way>;
-  decltype(shorter_path<State, one_way>)* shorter = shorter_path<State, one_way>;
-  decltype(improved_path<State, one_way>)* improved = improved_path<State, one_way>;
+  decltype(shortcut_path<Any, Length>)* shorter = shortcut_path<Any, Length>;
+  decltype(improve_path<Any, Length>)* improved = improve_path<Any, Length>;
 };
 template <class State, bool one_way = false>
 const Planned<State, one_way>& planned() {

@@ -15,6 +15,9 @@
 namespace warren {
 namespace {
 
+/// For messages.
+std::string_view words_of(const RobotSpec& robot) { return robot.kind == RobotKind::car ? "a car" : "a turning body"; }
+
 std::vector<double> state_of(std::string_view option, const std::vector<double>& given,
                              const std::vector<double>& in_file, std::size_t fewest, std::string_view body) {
   const std::vector<double>& state = given.empty() ? in_file : given;
@@ -37,13 +40,14 @@ std::optional<Scene> planned_copy(const Scene& scene, const Question& question, 
   return copy;
 }
 
-PoseProblem pose_problem(const Scene& scene, const Question& options, std::string_view body) {
+PoseProblem pose_problem(const Scene& scene, const Question& options) {
   if (options.contact == Contact::allowed) {
     throw UsageError(
         "@contact: the planners of turning bodies keep off the obstacles, so 'allowed' would change nothing");
   }
   PoseProblem problem;
   problem.robot = robot_of(scene, options);
+  const std::string_view body = words_of(problem.robot);
   const std::vector<double> start = state_of("@start", options.start, scene.start, 3, body);
   check_heading("@start", start);
   problem.start = {start[0], start[1], start[2]};
@@ -108,6 +112,14 @@ Outcome PoseJudge::settled(Outcome outcome) const {
   return settled_ends(
       outcome, [&] { return is_free(problem.start); },
       [&] { return std::ranges::any_of(poses_to_meet(scene, problem, execution, is_free), is_free); });
+}
+
+Verdict recheck_poses(const Scene& scene, const Question& question, const RecordedAnswer& answer,
+                      const Execution& execution) {
+  const PoseProblem problem = pose_problem(scene, question);
+  check_state_width(answer, 3, words_of(problem.robot));
+  const PoseJudge judge{scene, problem, execution};
+  return {judge.judged(poses_of(answer.states), verify_options(problem)), problem.general()};
 }
 
 void take_poses(Answer& answer, const Verification& verdict, std::span<const Se2> path) {

@@ -26,8 +26,6 @@ namespace warren {
 std::optional<Scene> planned_copy(const Scene& scene, const Question& question, PlannerKind planner,
                                   const Execution& execution);
 
-inline constexpr std::string_view turning_body = "a turning body";
-
 struct PoseProblem {
   RobotSpec robot;
   Se2 start;
@@ -42,9 +40,8 @@ struct PoseProblem {
   Problem general() const { return {robot, {start.x, start.y, start.theta}, goal, clearance, Contact::blocked}; }
 };
 
-/// `body`: "a turning body", for messages. Throws UsageError where start or goal are missing or have the wrong size,
-/// and for contact that is allowed.
-PoseProblem pose_problem(const Scene& scene, const Question& options, std::string_view body);
+/// Throws UsageError where start or goal are missing or have the wrong size, and for contact that is allowed.
+PoseProblem pose_problem(const Scene& scene, const Question& options);
 
 /// The poses that will do for a state of 2 or 3 numbers: of 2 those of 16 headings, evenly turned.
 std::vector<Se2> poses_of(const std::vector<double>& state);
@@ -80,5 +77,9 @@ struct PoseJudge {
   /// What is said of the ends where the outcome calls one blocked.
   Outcome settled(Outcome outcome) const;
 };
+
+/// SolveKind::verify of turning polygons and cars.
+Verdict recheck_poses(const Scene& scene, const Question& question, const RecordedAnswer& answer,
+                      const Execution& execution);
 
 }  // namespace warren

@@ -36,13 +36,6 @@ namespace detail {
 template <class State>
 using NumbersOf = std::array<double, sizeof(State) / sizeof(double)>;
 
-template <class State>
-State state_of(std::span<const double> numbers) {
-  NumbersOf<State> all{};
-  std::ranges::copy(numbers, all.begin());
-  return std::bit_cast<State>(all);
-}
-
 /// Has it joints?
 template <World W>
 inline constexpr bool is_arm_world = requires(const W& world) {
@@ -73,22 +66,20 @@ inline double reach_of(const Problem& problem) { return extent_of(problem.robot)
 template <World W>
 void check_drawn(const W& world, const SolveRequest& request, const Problem& problem, std::span<const double> numbers) {
   const unsigned width = state_width(world);
-  std::array<double, W::dimension> low;
-  std::array<double, W::dimension> high;
+  std::vector<double> low;
+  std::vector<double> high;
   if constexpr (is_arm_world<W>) {
     for (std::size_t j = 0; j < width; ++j) {
-      low[j] = world.model().variables[j].low;
-      high[j] = world.model().variables[j].high;
+      low.push_back(world.model().variables[j].low);
+      high.push_back(world.model().variables[j].high);
     }
   } else {
     constexpr double turn = 2.0 * std::numbers::pi;
     Box box = obstacle_box(request.scene, request.execution);
     if (request.scene.bounds) box.include(*request.scene.bounds);
     box = box.grown(box.width() + box.height() + reach_of(problem));
-    const std::array<double, 3> lows{box.min.x, box.min.y, -turn};
-    const std::array<double, 3> highs{box.max.x, box.max.y, turn};
-    std::copy_n(lows.begin(), W::dimension, low.begin());
-    std::copy_n(highs.begin(), W::dimension, high.begin());
+    low = {box.min.x, box.min.y, -turn};  // of points two of them
+    high = {box.max.x, box.max.y, turn};
   }
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     request.execution.poll(i);
@@ -219,17 +210,6 @@ class OldMotions {
   std::vector<std::pair<Key, VertexId>> vertices_;
 };
 
-/// Nothing for arms, which reach everywhere.
-template <World W>
-KnownMotions<typename W::State> known_motions(const W& world, const SolveRequest& request, const Problem& problem) {
-  if constexpr (is_arm_world<W>) {
-    return {};
-  } else {
-    if (request.old == nullptr) return {};
-    return OldMotions<W>(world, *request.old, problem, request.execution);
-  }
-}
-
 /// Roadmaps below are searched in less time than a person notices.
 inline constexpr std::size_t fewest_contracted_states = 65'536;
 
@@ -264,7 +244,10 @@ BuiltArrays build_sampled(const SolveRequest& request) {
     body.index(world, options.sampler);
   }
   const bool lazy = request.planner == PlannerKind::lazy_prm;
-  const auto known = detail::known_motions(*world, request, body.problem());
+  KnownMotions<State> known;
+  if constexpr (!detail::is_arm_world<World>) {  // arms reach everywhere
+    if (request.old != nullptr) known = detail::OldMotions<World>(*world, *request.old, body.problem(), execution);
+  }
   BuiltRoadmap<State> built = planned_in<World>().build(WorldView(*world), options, lazy, execution, known);
   all.samples = built.samples;
   all.rule = built.rule;
@@ -327,7 +310,9 @@ std::unique_ptr<RoadmapSession> open_sampled(const SolveRequest& request, const 
   states.reserve(numbers.size() / width);
   for (std::size_t i = 0; i < numbers.size(); i += width) {
     request.execution.poll(i / width);
-    states.push_back(detail::state_of<State>(numbers.subspan(i, width)));
+    detail::NumbersOf<State> all{};
+    std::ranges::copy(numbers.subspan(i, width), all.begin());
+    states.push_back(std::bit_cast<State>(all));
   }
   const bool lazy = request.planner == PlannerKind::lazy_prm;
   const bool has_index = !arrays.hierarchy.empty() && !lazy && !arrays.directed;

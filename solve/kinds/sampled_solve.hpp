@@ -28,6 +28,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -47,6 +48,7 @@
 #include "solve/kinds/kind_of_problem.hpp"
 #include "solve/kinds/plane_steps.hpp"
 #include "solve/kinds/planned_worlds.hpp"
+#include "solve/kinds/priced_motions.hpp"
 #include "solve/kinds/sampled_roadmap.hpp"
 #include "solve/kinds/solve_steps.hpp"
 #include "solve/question/planner_choice.hpp"
@@ -153,7 +155,10 @@ class PointBody : public UsualBody<WallProblem> {
 /// in the open nothing turns for nothing; then the others, the roomiest first.
 class PoseBody : public UsualBody<PoseProblem> {
  public:
-  PoseBody(const SolveRequest& request, PoseProblem problem) : UsualBody(request, std::move(problem)) {}
+  PoseBody(const SolveRequest& request, PoseProblem problem)
+      : UsualBody(request, std::move(problem)),
+        prices_(prices_of(scene_, request.question)),
+        pose_prices_(std::make_unique<PosePrices>(scene_, prices_, problem_.clearance)) {}
 
   bool start_stands_free() const { return pose_judge().stands_free(problem_.start); }
   bool goal_stands_free(const Se2& pose) const { return pose_judge().stands_free(pose); }
@@ -200,6 +205,9 @@ class PoseBody : public UsualBody<PoseProblem> {
 
  protected:
   PoseJudge pose_judge() const { return {scene_, problem_, execution_, judged_}; }
+
+  Prices prices_;
+  std::unique_ptr<PosePrices> pose_prices_;  // motions refer to it
 };
 
 template <class Body>
@@ -217,8 +225,15 @@ class SampledSolve {
     answer_.seed = request.options.seed;
     if (gets_better(request.planner)) {
       describe_better();
+    } else if (by_roadmap()) {
+      roadmap_options_ = detail::roadmap_options_of(request_, body_);
+      if (body_.names_pipeline && request_.planner == PlannerKind::prm) answer_.pipeline = name_of(PipelineKind::plain);
+      answer_.sampler = name_of(roadmap_options_.sampler);
+      answer_.search = name_of(roadmap_options_.search);
     } else if (!on_lattice()) {
-      by_roadmap() ? describe_roadmap() : describe_trees();
+      tree_options_ = tree_options(request_.options);
+      body_.suit(tree_options_);
+      answer_.sampler = tree_options_.sampler ? name_of(*tree_options_.sampler) : "uniform-gaussian";
     }
     answer_.options = given_figures(request.options);
   }
@@ -241,7 +256,6 @@ class SampledSolve {
   }
 
  private:
-  const Execution& execution() const { return request_.execution; }
   bool on_lattice() const { return request_.planner == PlannerKind::grid; }
   void plan() {
     if (gets_better(request_.planner)) return plan_better();
@@ -249,12 +263,6 @@ class SampledSolve {
     by_roadmap() ? plan_roadmaps() : take(grow_trees());
   }
   bool by_roadmap() const { return is_roadmap_planner(request_.planner); }
-  void describe_roadmap() {
-    roadmap_options_ = detail::roadmap_options_of(request_, body_);
-    if (body_.names_pipeline && request_.planner == PlannerKind::prm) answer_.pipeline = name_of(PipelineKind::plain);
-    answer_.sampler = name_of(roadmap_options_.sampler);
-    answer_.search = name_of(roadmap_options_.search);
-  }
   /// rrt-star is the textbook's; what anytime draws is its own business.
   void describe_better() {
     tree_options_ = tree_options(request_.options);
@@ -269,13 +277,8 @@ class SampledSolve {
     if (std::ranges::count(parts, AnytimePart::shorten) == std::ranges::ssize(parts) && !parts.empty())
       throw UsageError("@parts: shorten alone finds no path; add tree, restarts or roadmap");
   }
-  void describe_trees() {
-    tree_options_ = tree_options(request_.options);
-    body_.suit(tree_options_);
-    answer_.sampler = tree_options_.sampler ? name_of(*tree_options_.sampler) : "uniform-gaussian";
-  }
   void index() {
-    const StageTimer timer(execution(), "index", answer_.seconds.index);
+    const StageTimer timer(own_, "index", answer_.seconds.index);
     if (request_.asked.session != nullptr) {
       const auto& session = static_cast<const SessionIn<World>&>(*request_.asked.session);
       world_ = &*session.world;
@@ -300,11 +303,11 @@ class SampledSolve {
     const bool grows = by_roadmap() ? !roadmap_options_.samples && !takes_all_places(roadmap_options_.sampler)
                                     : !request_.options.trees.nodes;
     if (!grows || !request_.scene.map) return;
-    const StageTimer timer(execution(), "proof", answer_.seconds.search);
+    const StageTimer timer(own_, "proof", answer_.seconds.search);
     if (!body_.provably_apart(*world_, goals_)) return;
     apart_ = true;
     if (by_roadmap()) {
-      roadmap_options_.samples = first_samples(*view_, roadmap_options_, execution());
+      roadmap_options_.samples = first_samples(*view_, roadmap_options_, own_);
     } else {
       tree_options_.nodes = 1000;  // they need not fill what they can reach
     }
@@ -314,20 +317,16 @@ class SampledSolve {
     const std::vector<State> in_order = body_.best_first(*world_, goals_);
     std::vector<State> goals = detail::free_states(*world_, std::span<const State>(in_order));
     if (goals.empty()) goals.push_back(in_order.front());
+    const bool lazy = request_.planner == PlannerKind::lazy_prm;
     Counters before;
     for (const State& goal : goals) {
-      take(plan_roadmap(body_.start(), goal));
+      take(asked_ != nullptr
+               ? planners_.ask(*asked_, body_.start(), goal, roadmap_options_, own_, *request_.asked.scratch, kept())
+               : planners_.on_roadmap(*view_, body_.start(), goal, roadmap_options_, lazy, own_, kept()));
       answer_.counters += before;
       before = answer_.counters;
       if (answer_.outcome != Outcome::not_connected || apart_) break;
     }
-  }
-  Solution<State> plan_roadmap(const State& start, const State& goal) {
-    const bool lazy = request_.planner == PlannerKind::lazy_prm;
-    if (asked_ != nullptr) {
-      return planners_.ask(*asked_, start, goal, roadmap_options_, execution(), *request_.asked.scratch, kept());
-    }
-    return planners_.on_roadmap(*view_, start, goal, roadmap_options_, lazy, execution(), kept());
   }
   AnytimeOptions better_options() const {
     constexpr std::uint64_t usual_iterations = 20;
@@ -346,7 +345,7 @@ class SampledSolve {
                      .shorten = whole && has(AnytimePart::shorten)};
     options.iterations = asked.iterations;
     options.gap = asked.gap;
-    const bool is_endless = !asked.iterations && !asked.gap && execution().seconds_left() > 1e9;
+    const bool is_endless = !asked.iterations && !asked.gap && own_.seconds_left() > 1e9;
     if (is_endless) options.iterations = usual_iterations;
     if (apart_) options.iterations = std::min<std::uint64_t>(options.iterations.value_or(4), 4);
     return options;
@@ -366,7 +365,10 @@ class SampledSolve {
     body.draws = Body::improves_by_draws;
     body.length = [this](const Path<State>& path) { return length_of(path); };
     if (request_.keep != nullptr) body.kept = [this](const Path<State>& path) { keep_improved(path); };
-    if (wants_exact_bound()) body.lower_bound = [this] { return bound(BoundEffort::exact); };
+    constexpr std::size_t few = 2'000;  // corners: where nobody asks how good a path is, and it takes little to know
+    const bool is_small = !request_.scene.map && corner_count(request_.scene) <= few;
+    if (request_.options.bound || request_.options.anytime.gap || is_small)
+      body.lower_bound = [this] { return bound(BoundEffort::exact); };
     body.judge_bytes = judge_bytes(request_.scene);
     body.judged_s = [this](const Path<State>& path) {
       Answer judged;
@@ -406,14 +408,7 @@ class SampledSolve {
     kept.add(line);
   }
   double bound(BoundEffort effort) const {
-    const BoundOf measure = Body::has_cost ? BoundOf::metric : BoundOf::length;
-    return proved_bound(request_.scene, answer_.problem, measure, effort, execution());
-  }
-  /// Of planners that nobody asks how good they are, where it takes little.
-  bool wants_exact_bound() const {
-    constexpr std::size_t few = 2'000;
-    const bool is_small = !request_.scene.map && corner_count(request_.scene) <= few;
-    return request_.options.bound || request_.options.anytime.gap || is_small;
+    return proved_bound(request_.scene, answer_.problem, BoundOf::metric, effort, own_);
   }
   /// None where start or all of them are blocked, which the answer says.
   std::vector<State> free_goals() {
@@ -433,7 +428,7 @@ class SampledSolve {
     options.all_goals = answer_.problem.goal.size() == answer_.problem.start.size();  // else some headings or postures
     const auto begin = std::chrono::steady_clock::now();
     AnytimeSolution<State> found =
-        planners_.anytime(*view_, State(body_.start()), goals, options, body_of_better(), execution());
+        planners_.anytime(*view_, State(body_.start()), goals, options, body_of_better(), own_);
     answer_.lower_bound = found.lower_bound;
     answer_.improvements = std::move(found.improvements);
     answer_.iterations = found.iterations;
@@ -462,11 +457,11 @@ class SampledSolve {
   /// Of planners that leave it to who asks: in the metric that they make small, and never to a path that costs more.
   /// begin: of the search.
   void shorten_better(std::chrono::steady_clock::time_point begin) {
-    const StageTimer timer(execution(), "optimise", answer_.seconds.optimise, path_.size());
+    const StageTimer timer(own_, "optimise", answer_.seconds.optimise, path_.size());
     answer_.raw_length = length_of(path_);
     stopped_by([&] {  // it stays as it is then
       const ImproveOptions how{.seed = answer_.seed};
-      Path<State> shorter = body_.improved(*world_, path_, how, execution(), answer_.counters);
+      Path<State> shorter = body_.improved(*world_, path_, how, own_, answer_.counters);
       if (!(cost_of(shorter) < cost_of(path_))) return;
       path_ = std::move(shorter);
       if (answer_.improvements.empty()) return;
@@ -486,7 +481,7 @@ class SampledSolve {
   }
   Solution<State> grow_trees() {
     const auto planner = request_.planner == PlannerKind::rrt ? planners_.rrt : planners_.rrt_connect;
-    return planner(*view_, State(body_.start()), goals_, tree_options_, execution(), kept());
+    return planner(*view_, State(body_.start()), goals_, tree_options_, own_, kept());
   }
   /// A roadmap takes the place of the one before; trees stand beside each other.
   PlannedRoadmap<State>* kept() {
@@ -533,7 +528,7 @@ class SampledSolve {
     for (std::size_t i = 1; i < count; ++i) {
       tree_options_.seed = random_bits(seed, i);
       Solution<State> other = grow_trees();
-      execution().check();
+      own_.check();
       answer_.counters += other.counters;
       answer_.roadmap.milestones += other.roadmap.milestones;
       answer_.roadmap.edges += other.roadmap.edges;
@@ -554,7 +549,7 @@ class SampledSolve {
       return;
     }
     if (request_.options.optimise && !gets_better(request_.planner)) {
-      const StageTimer timer(execution(), "optimise", answer_.seconds.optimise, path_.size());
+      const StageTimer timer(own_, "optimise", answer_.seconds.optimise, path_.size());
       if constexpr (requires { body_.paths_weighed(); }) choose_path();
       answer_.raw_length = length_of(path_);
       path_ = body_.shortened(*world_, std::move(path_), answer_);

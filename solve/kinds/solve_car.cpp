@@ -30,11 +30,9 @@
 namespace warren {
 namespace {
 
-constexpr std::string_view body_words = "a car";
-
 /// The file's car, and what the options say otherwise.
 PoseProblem car_problem(const Scene& scene, const Question& question, const CarFields& car) {
-  PoseProblem problem = pose_problem(scene, question, body_words);
+  PoseProblem problem = pose_problem(scene, question);
   problem.robot.turning_radius = car.turning_radius.value_or(problem.robot.turning_radius);
   problem.robot.steering = car.steering.value_or(problem.robot.steering);
   return problem;
@@ -55,10 +53,11 @@ class Car : public PoseBody {
   explicit Car(const SolveRequest& request)
       : PoseBody(request, car_problem(request.scene, request.question, request.options.car)),
         options_(request.options),
-        prices_(prices_of(request.scene, request.question)),
-        pose_prices_(std::make_unique<PosePrices>(scene_, prices_, problem_.clearance)),
         on_lattice_(request.planner == PlannerKind::grid) {
-    if (on_lattice_) check_lattice();
+    if (on_lattice_ && options_.grid.cell && scene_.map)
+      throw UsageError("@cell: on a map the grid's positions are the middles of its cells");
+    const std::uint32_t headings = options_.grid.headings.value_or(16);
+    if (on_lattice_ && headings != 16 && headings != 32) throw UsageError("@headings: a car's lattice has 16 or 32");
     const CarFields& asked = options_.car;
     if (!asked.cusp_cost && !asked.reverse_cost) return;
     const std::string_view option = name_of(asked.cusp_cost ? Option::cusp_cost : Option::reverse_cost);
@@ -136,12 +135,18 @@ class Car : public PoseBody {
       return length + prices.over(world, gone, query, [&](double t) { return way.at_driven(t * gone); });
     };
   }
+  /// Where places have prices by shortcuts that cost less, and not at all where all of it costs more then; else it is
+  /// driven with fewer changes of gear, and less of it backwards, as their prices have it.
   Path<Se2> shortened(const World& world, Path<Se2> path, Answer& answer) const {
-    if (pose_prices_->is_priced()) return cheaper(world, path, answer);
+    if (pose_prices_->is_priced()) {
+      Path<Se2> cut = shortcut(world, Path<Se2>(path), price_motions(world), answer);
+      return paid(world, cut) < paid(world, path) ? cut : path;
+    }
     const auto curve_length = [&](const Se2& a, const Se2& b) { return world.distance(a, b); };
     path = shortcut(world, std::move(path), curve_length, answer);
-    if constexpr (has_gears) path = redriven(world, std::move(path), answer);
-    return path;
+    if (is_length_alone()) return path;
+    return redriven_path(PricedCar(world.body(), price()), std::move(path), {.seed = answer.seed}, execution_,
+                         answer.counters);
   }
   void judge(const World& world, const Path<Se2>& path, Answer& answer) const {
     const std::vector<Se2> poses = joints(world, path);
@@ -194,17 +199,6 @@ class Car : public PoseBody {
     const Verification found = pose_judge().judged(poses, verify_options(problem_));
     const PriceParts price = verify_body_price(scene_, poses, problem_.robot, prices_, execution_);
     return found.length + driving(found).sum() + price.sum();
-  }
-  /// The path with shortcuts where those cost less, and itself where all of it costs more then.
-  Path<Se2> cheaper(const World& world, const Path<Se2>& path, Answer& answer) const {
-    Path<Se2> cut = shortcut(world, Path<Se2>(path), price_motions(world), answer);
-    return paid(world, cut) < paid(world, path) ? cut : path;
-  }
-  void check_lattice() const {
-    if (options_.grid.cell && scene_.map)
-      throw UsageError("@cell: on a map the grid's positions are the middles of its cells");
-    const std::uint32_t headings = options_.grid.headings.value_or(16);
-    if (headings != 16 && headings != 32) throw UsageError("@headings: a car's lattice has 16 or 32");
   }
   CarLatticeOptions lattice_options() const {
     CarLatticeOptions options;
@@ -278,16 +272,8 @@ class Car : public PoseBody {
     return {};
   }
   bool is_length_alone() const { return !has_gears || (price().cusp == 0.0 && price().reverse == 1.0); }
-  /// With fewer changes of gear, and less of it backwards, as their prices have it.
-  Path<Se2> redriven(const World& world, Path<Se2> path, Answer& answer) const {
-    if (is_length_alone()) return path;
-    return redriven_path(PricedCar(world.body(), price()), std::move(path), {.seed = answer.seed}, execution_,
-                         answer.counters);
-  }
 
   const SolveOptions& options_;
-  Prices prices_;
-  std::unique_ptr<PosePrices> pose_prices_;  // motions refer to it
   bool on_lattice_;
 };
 
@@ -330,14 +316,6 @@ std::unique_ptr<RoadmapSession> open_for_car(const SolveRequest& request, const 
   return by_steering(request, [&]<class Curve>() { return open_sampled<Car<Curve>>(request, arrays, rule); });
 }
 
-Verdict recheck_car(const Scene& scene, const Question& question, const RecordedAnswer& answer,
-                    const Execution& execution) {
-  const PoseProblem problem = pose_problem(scene, question, body_words);
-  check_state_width(answer, 3, body_words);
-  return {verify_car(scene, problem.robot, poses_of(answer.states), verify_options(problem), execution),
-          problem.general()};
-}
-
 }  // namespace
 
 std::vector<GoalPlace> places_of_car(const SolveRequest& request) {
@@ -350,8 +328,8 @@ std::vector<GoalPlace> places_of_car(const SolveRequest& request) {
 }
 
 SolveKind car_kind() {
-  return {body_words, fits_car,    car_planners,  usually<PlannerKind::rrt_connect>,
-          solve_car,  recheck_car, build_for_car, open_for_car};
+  return {"a car",   fits_car,      car_planners,  usually<PlannerKind::rrt_connect>,
+          solve_car, recheck_poses, build_for_car, open_for_car};
 }
 
 }  // namespace warren

@@ -68,24 +68,16 @@ std::optional<std::int64_t> whole(double x) {
   return static_cast<std::int64_t>(nearest);
 }
 
-/// Numbers below and above x, `reach` of each.
-struct Around {
-  std::int64_t first;
-  std::int64_t last;
-  Around(double x, std::int64_t reach)
-      : first(static_cast<std::int64_t>(std::floor(x)) - reach + 1), last(first + 2 * reach - 1) {}
-};
+/// The first of the numbers below and above x, `reach` of each.
+std::int64_t first_around(double x, std::int64_t reach) { return static_cast<std::int64_t>(std::floor(x)) - reach + 1; }
 
 /// The headings to which an end may be joined.
 std::vector<std::uint32_t> headings_around(const HeadingLayers& layers, const LatticeEnd& end) {
+  constexpr std::uint32_t few = 4;
+  const bool all = end.any_heading || layers.angles <= few;
+  const std::int64_t first = all ? 0 : first_around(end.pose.theta / heading_step(layers), few / 2);
   std::vector<std::uint32_t> headings;
-  constexpr std::uint32_t all = 4;
-  if (end.any_heading || layers.angles <= all) {
-    for (std::uint32_t k = 0; k < layers.angles; ++k) headings.push_back(k);
-    return headings;
-  }
-  const Around around(end.pose.theta / heading_step(layers), 2);
-  for (std::int64_t k = around.first; k <= around.last; ++k) headings.push_back(wrapped(k, layers.angles));
+  for (std::uint32_t i = 0; i < (all ? layers.angles : few); ++i) headings.push_back(wrapped(first + i, layers.angles));
   return headings;
 }
 
@@ -121,25 +113,19 @@ Se2World turning_world(const Scene& scene, const PoseProblem& problem, const Se2
 
 /// Where a lattice's coordinates lie in the world: those of a scene are the world's own, those of a map begin in its
 /// corner and turn with it.
-class LatticeFrame {
- public:
-  explicit LatticeFrame(const Scene& scene)
-      : corner_(scene.map ? Se2{scene.map->origin.x, scene.map->origin.y, scene.map->yaw_rad} : Se2{}),
-        turn_(corner_.theta),
-        turn_back_(-corner_.theta) {}
+struct LatticeFrame {
+  Se2 corner;
+  Rotation turn{corner.theta};
+  Rotation turn_back{-corner.theta};
+
   Se2 in_world(const Se2& pose) const {
-    const Vec2 p = corner_.position() + turn_(pose.position());
-    return {p.x, p.y, pose.theta + corner_.theta};
+    const Vec2 p = corner.position() + turn(pose.position());
+    return {p.x, p.y, pose.theta + corner.theta};
   }
   Se2 in_lattice(const Se2& pose) const {
-    const Vec2 p = turn_back_(pose.position() - corner_.position());
-    return {p.x, p.y, pose.theta - corner_.theta};
+    const Vec2 p = turn_back(pose.position() - corner.position());
+    return {p.x, p.y, pose.theta - corner.theta};
   }
-
- private:
-  Se2 corner_;
-  Rotation turn_;
-  Rotation turn_back_;
 };
 
 /// The pose of a state, in the lattice's coordinates.
@@ -236,7 +222,9 @@ class LatticeSolve {
       : request_(request),
         problem_(problem_of(request.scene, request.question)),
         layer_options_(layer_options(request, problem_)),
-        frame_(request.scene) {
+        frame_{request.scene.map
+                   ? Se2{request.scene.map->origin.x, request.scene.map->origin.y, request.scene.map->yaw_rad}
+                   : Se2{}} {
     search_.diagonal = request.options.grid.diagonal.value_or(Diagonal::sqrt2);
     search_.face_motion = request.options.grid.face_motion;
     search_.step_cost = request.options.grid.step_cost.value_or(1.0);
@@ -248,7 +236,14 @@ class LatticeSolve {
     }
     answer_.planner = name_of(PlannerKind::grid);
     answer_.search = name_of(GridMethod::astar);
-    describe_options();
+    const auto add = [&](const char* name, auto value) { answer_.options.push_back({name, Figure(std::move(value))}); };
+    add("cell", layer_options_.grid.cell);
+    if (turns()) add("angles", std::uint64_t{layer_options_.grid.angles});
+    add("diagonal", std::string(name_of(search_.diagonal)));
+    if (search_.face_motion) add("face_motion", true);
+    if (search_.step_cost != 1.0) add("step_cost", search_.step_cost);
+    if (search_.turn_cost != 1.0) add("turn_cost", search_.turn_cost);
+    if (is_report()) add("layers", std::string("report004"));
   }
 
   void run() {
@@ -258,7 +253,13 @@ class LatticeSolve {
     }
     answer_.figures.push_back({"states", std::uint64_t{layers_.states()}});
     answer_.figures.push_back({"free_states", std::uint64_t{layers_.free_states()}});
-    describe_layers();
+    if (turns()) {
+      std::vector<std::uint64_t> free;
+      for (std::uint32_t k = 0; k < layers_.angles; ++k) free.push_back(layers_.free_at(k));
+      answer_.figures.push_back({"free_at_headings", std::move(free)});
+      const std::set<std::uint32_t> distinct(layers_.standing.begin(), layers_.standing.end());
+      answer_.figures.push_back({"distinct_layers", std::uint64_t{distinct.size()}});
+    }
     search();
     if (answer_.outcome == Outcome::solved) verify();
     if (request_.keep != nullptr) keep_headings(*request_.keep);
@@ -315,26 +316,6 @@ class LatticeSolve {
     return ends;
   }
 
-  void describe_options() {
-    const auto add = [&](const char* name, auto value) { answer_.options.push_back({name, Figure(std::move(value))}); };
-    add("cell", layer_options_.grid.cell);
-    if (turns()) add("angles", std::uint64_t{layer_options_.grid.angles});
-    add("diagonal", std::string(name_of(search_.diagonal)));
-    if (search_.face_motion) add("face_motion", true);
-    if (search_.step_cost != 1.0) add("step_cost", search_.step_cost);
-    if (search_.turn_cost != 1.0) add("turn_cost", search_.turn_cost);
-    if (is_report()) add("layers", std::string("report004"));
-  }
-
-  void describe_layers() {
-    if (!turns()) return;
-    std::vector<std::uint64_t> free;
-    for (std::uint32_t k = 0; k < layers_.angles; ++k) free.push_back(layers_.free_at(k));
-    answer_.figures.push_back({"free_at_headings", std::move(free)});
-    const std::set<std::uint32_t> distinct(layers_.standing.begin(), layers_.standing.end());
-    answer_.figures.push_back({"distinct_layers", std::uint64_t{distinct.size()}});
-  }
-
   HeadingLayers layers() const {
     if (!request_.scene.map) {
       return orientation_layers(request_.scene, problem_.robot, layer_options_, request_.execution);
@@ -347,14 +328,14 @@ class LatticeSolve {
   /// free.
   template <class World>
   std::vector<LayerEnd> joined_within(const World& world, const LatticeEnd& end, std::int64_t reach) const {
-    const Around columns((end.pose.x - layers_.origin.x) / layers_.cell, reach);
-    const Around rows((end.pose.y - layers_.origin.y) / layers_.cell, reach);
+    const std::int64_t left = first_around((end.pose.x - layers_.origin.x) / layers_.cell, reach);
+    const std::int64_t low = first_around((end.pose.y - layers_.origin.y) / layers_.cell, reach);
+    const std::int64_t right = std::min<std::int64_t>(left + 2 * reach, layers_.width);
+    const std::int64_t high = std::min<std::int64_t>(low + 2 * reach, layers_.height);
     const std::vector<std::uint32_t> headings = headings_around(layers_, end);
     std::vector<LayerEnd> ends;
-    for (std::int64_t j = std::max<std::int64_t>(rows.first, 0);
-         j <= std::min<std::int64_t>(rows.last, layers_.height - 1); ++j) {
-      for (std::int64_t i = std::max<std::int64_t>(columns.first, 0);
-           i <= std::min<std::int64_t>(columns.last, layers_.width - 1); ++i) {
+    for (std::int64_t j = std::max<std::int64_t>(low, 0); j < high; ++j) {
+      for (std::int64_t i = std::max<std::int64_t>(left, 0); i < right; ++i) {
         request_.execution.check();
         for (const std::uint32_t k : headings) {
           const LayerState state{static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j), k};
@@ -437,7 +418,19 @@ class LatticeSolve {
     figure("moves", path.steps);
     figure("diagonal_moves", path.diagonals);
     figure("turn_steps", path.turns);
-    take_poses(path.states);
+    // It begins and ends where it was asked to, on the lattice or off it.
+    const auto posed = [&](const LayerState& s) { return frame_.in_world(pose_of(layers_, s)); };
+    Se2 goal = problem_.goal_pose();
+    if (problem_.any_heading())
+      goal.theta = path.states.empty() ? problem_.start.theta : posed(path.states.back()).theta;
+    poses_.push_back(problem_.start);
+    for (const LayerState& s : path.states) {
+      const Se2 next = posed(s);
+      const bool is_end = (s == path.states.front() && is_there(problem_.start, next, !turns())) ||
+                          (s == path.states.back() && is_there(goal, next, !turns()));
+      if (!is_end) poses_.push_back(next);
+    }
+    if (poses_.size() > 1 || !is_there(goal, problem_.start, !turns())) poses_.push_back(goal);
     answer_.states.width = 3;
     for (const Se2& pose : poses_) {
       answer_.path.push_back(pose.position());
@@ -451,34 +444,15 @@ class LatticeSolve {
            (any_heading || std::abs(turn_between(end.theta, state.theta)) <= rounding);
   }
 
-  /// The path begins and ends where it was asked to, on the lattice or off it.
-  void take_poses(const std::vector<LayerState>& states) {
-    const auto pose = [&](const LayerState& s) { return frame_.in_world(pose_of(layers_, s)); };
-    Se2 goal = problem_.goal_pose();
-    if (problem_.any_heading()) goal.theta = states.empty() ? problem_.start.theta : pose(states.back()).theta;
-    poses_.push_back(problem_.start);
-    for (const LayerState& s : states) {
-      const Se2 next = pose(s);
-      const bool is_end = (s == states.front() && is_there(problem_.start, next, !turns())) ||
-                          (s == states.back() && is_there(goal, next, !turns()));
-      if (!is_end) poses_.push_back(next);
-    }
-    if (poses_.size() > 1 || !is_there(goal, problem_.start, !turns())) poses_.push_back(goal);
-  }
-
   /// Of a point or disc wherever the path begins and ends.
-  Verification judged(std::span<const Se2> poses, const PoseVerifyOptions& options) const {
-    if (turns()) return verify_se2(request_.scene, problem_.robot.outline, poses, options, request_.execution);
-    std::vector<Vec2> path;
-    for (const Se2& pose : poses) path.push_back(pose.position());
-    return verify_path(request_.scene, path, {.radius = problem_.robot.radius, .clearance = options.clearance},
-                       request_.execution);
-  }
-
   void verify() {
-    const StageTimer timer(request_.execution, "verify", answer_.seconds.verify, answer_.path.size());
+    const Execution& execution = request_.execution;
+    const StageTimer timer(execution, "verify", answer_.seconds.verify, answer_.path.size());
+    const VerifyOptions round{.radius = problem_.robot.radius, .clearance = problem_.clearance};
     const PoseVerifyOptions anywhere{.clearance = problem_.clearance};
-    const Verification found = judged(poses_, is_report() ? anywhere : verify_options(problem_));
+    const Verification found = turns() ? verify_se2(request_.scene, problem_.robot.outline, poses_,
+                                                    is_report() ? anywhere : verify_options(problem_), execution)
+                                       : verify_path(request_.scene, answer_.path, round, execution);
     if (!found.verified && is_report()) return refute(answer_, found);
     take_verdict(answer_, found);
     if (turns()) answer_.turn_rad = found.turn_rad;

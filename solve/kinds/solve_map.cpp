@@ -131,7 +131,9 @@ class CellSolve {
 
   void run() {
     chooses_ || prices_ ? run_chosen() : run_to_goal();
-    add_alternatives();
+    const RouteRule& route = request_.question.route;
+    if (!route.alternatives || !answer_.verified) return;
+    take_alternatives(answer_, route, ways(), distances(), request_.execution);
   }
   Answer& answer() { return answer_; }
 
@@ -151,11 +153,6 @@ class CellSolve {
     }
     if (wants_taut()) optimise();
     judge_of(request_, problem_).verify_solved(answer_, true);
-  }
-  void add_alternatives() {
-    const RouteRule& route = request_.question.route;
-    if (!route.alternatives || !answer_.verified) return;
-    take_alternatives(answer_, route, ways(), distances(), request_.execution);
   }
 
   /// Where there is more to decide than the way to one place.
@@ -264,7 +261,11 @@ class CellSolve {
       for (const Cell goal : goals) {
         const GridPath path = cells.find(start, goal, grid_, request_.execution);
         answer_.counters.expanded += path.expanded;
-        if (path.status == SearchStatus::found) return take(path);
+        if (path.status != SearchStatus::found) continue;
+        answer_.outcome = Outcome::solved;
+        count(path.cells.size(), path.cost);
+        answer_.path = path_over_cells(map_, problem_.start, path.cells, problem_.goal);
+        return;
       }
     }
   }
@@ -272,12 +273,6 @@ class CellSolve {
   void count(std::uint64_t cells, double cost) {
     answer_.cost = cost;
     answer_.path_figures.push_back({"cells", cells});
-  }
-
-  void take(const GridPath& path) {
-    answer_.outcome = Outcome::solved;
-    count(path.cells.size(), path.cost);
-    answer_.path = path_over_cells(map_, problem_.start, path.cells, problem_.goal);
   }
 
   /// Off the grid: motions between any two points, certified against the closed cells.
@@ -427,12 +422,6 @@ Answer solve_chosen(const SolveRequest& request) {
   return answer;
 }
 
-NamedLines lines_of(const OccupancyMap& map, const std::vector<std::pair<Cell, Cell>>& steps) {
-  NamedLines lines{"medial_axis", {}};
-  for (const auto& [from, to] : steps) lines.lines.add(std::array{cell_centre(map, from), cell_centre(map, to)});
-  return lines;
-}
-
 /// What was found along the skeleton, in the world's coordinates.
 void take_skeleton_path(Answer& answer, const SkeletonPath& plan, const OccupancyMap& map, const WallProblem& problem) {
   answer.outcome = plan.outcome;
@@ -510,7 +499,10 @@ Answer solve_on_skeleton(const SolveRequest& request) {
     // The skeleton was asked about the middles of the cells.
     if (is_blocked(answer.outcome)) answer.outcome = Outcome::not_connected;
     if (problem.start == problem.goal) stay(answer, problem);
-    if (request.keep != nullptr) request.keep->lines.push_back(lines_of(map, steps));
+    if (request.keep != nullptr) {
+      NamedLines& axis = request.keep->lines.emplace_back(NamedLines{"medial_axis", {}});
+      for (const auto& [from, to] : steps) axis.lines.add(std::array{cell_centre(map, from), cell_centre(map, to)});
+    }
     judge.verify_solved(answer, true);
   });
   return answer;

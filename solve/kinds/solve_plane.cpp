@@ -69,108 +69,86 @@ VisibilityOptions options_of(const SolveRequest& request, const SearchChoice& se
   return options;
 }
 
-/// The polygons as the file has them, for edges that are told by their corners' numbers there.
-PolygonSet polygons_of(const Scene& scene) {
-  PolygonSet set;
-  for (const ScenePolygon& polygon : scene.polygons) set.add(polygon.corners);
-  return set;
+/// Of the graph of sampled edges, whose last two points are start and goal.
+void search_edges(const std::vector<Vec2>& points, const std::vector<Edge>& edges, const VisibilityOptions& how,
+                  const Execution& execution, Answer& answer) {
+  const StageTimer timer(execution, "search", answer.seconds.search);
+  const Graph graph = assemble_graph(points.size(), edges, execution);
+  const auto goal = static_cast<VertexId>(points.size() - 1);
+  const auto length = [&](VertexId v, VertexId w) { return distance(points[v], points[w]); };
+  const VertexDistance apart(length);
+  const SearchResult found = search_roadmap(graph, {.start = goal - 1,
+                                                    .goal = goal,
+                                                    .length = apart,
+                                                    .estimate = apart,
+                                                    .search = how.search,
+                                                    .queue = how.queue,
+                                                    .execution = execution,
+                                                    .estimate_fits = false});  // from the start alone
+  answer.counters.expanded = found.expanded;
+  answer.outcome = found.status == SearchStatus::found ? Outcome::solved : Outcome::not_connected;
+  for (const VertexId v : found.path) answer.path.push_back(points[v]);
+}
+
+std::vector<WrongEdge> wrong_edges(const PolygonIndex& polygons, const std::vector<Vec2>& points,
+                                   const std::vector<Edge>& edges, const Execution& execution) {
+  constexpr std::size_t places = 4096;
+  const Box& box = polygons.box();
+  const double rounding = 1e-12 * std::max(box.width(), box.height());
+  std::vector<WrongEdge> wrong;
+  for (const Edge& edge : edges) {
+    execution.check();
+    const double depth = depth_inside(polygons, {points[edge.from], points[edge.to]}, places);
+    if (!(depth <= rounding)) wrong.push_back({edge.from, edge.to, depth});
+  }
+  return wrong;
 }
 
 /// Solves on the graph of sampled edges and says what is wrong with them. The path is verified like any other; what is
-/// refuted is answered as such.
-class SampledVisibilitySolve {
- public:
-  SampledVisibilitySolve(const SolveRequest& request, const WallProblem& problem, const VisibilityOptions& how)
-      : request_(request), problem_(problem), how_(how) {}
-
-  void run(Answer& answer) {
-    const Execution& execution = request_.execution;
-    const PolygonIndex polygons(polygons_of(request_.scene), execution);
-    points_ = polygons.polygons().corners;
-    points_.push_back(problem_.start);
-    points_.push_back(problem_.goal);
-    {
-      const StageTimer timer(execution, "connect", answer.seconds.connect, points_.size());
-      edges_ = sampled_visibility(polygons, problem_.start, problem_.goal, *request_.options.visibility.sampled_edges,
-                                  execution);
-    }
-    answer.roadmap = {points_.size(), edges_.size(), 0};
-    search(answer);
-    {
-      const StageTimer timer(execution, "proof", proof_s_, edges_.size());
-      tell_wrong_edges(polygons, answer);
-    }
-    answer.figures.push_back({"proof_s", proof_s_});
-    if (request_.keep != nullptr) keep_edges(*request_.keep);
-    judge(answer);
+/// refuted is answered as such. proof_s: what finding the wrong edges took, of the proof that sampling is wrong, not of
+/// the solving.
+void solve_on_sampled_edges(const SolveRequest& request, const WallProblem& problem, const VisibilityOptions& how,
+                            double& proof_s, Answer& answer) {
+  const Execution& execution = request.execution;
+  PolygonSet as_in_file;  // edges are told by the numbers of their corners there
+  for (const ScenePolygon& polygon : request.scene.polygons) as_in_file.add(polygon.corners);
+  const PolygonIndex polygons(std::move(as_in_file), execution);
+  std::vector<Vec2> points = polygons.polygons().corners;
+  points.push_back(problem.start);
+  points.push_back(problem.goal);
+  std::vector<Edge> edges;
+  {
+    const StageTimer timer(execution, "connect", answer.seconds.connect, points.size());
+    edges =
+        sampled_visibility(polygons, problem.start, problem.goal, *request.options.visibility.sampled_edges, execution);
   }
-  /// What finding the wrong edges took: of the proof that sampling is wrong, not of the solving.
-  double proof_s() const { return proof_s_; }
-
- private:
-  void search(Answer& answer) {
-    const StageTimer timer(request_.execution, "search", answer.seconds.search);
-    const Graph graph = assemble_graph(points_.size(), edges_, request_.execution);
-    const auto goal = static_cast<VertexId>(points_.size() - 1);
-    const auto length = [this](VertexId v, VertexId w) { return distance(points_[v], points_[w]); };
-    const VertexDistance apart(length);
-    const SearchResult found = search_roadmap(graph, {.start = goal - 1,
-                                                      .goal = goal,
-                                                      .length = apart,
-                                                      .estimate = apart,
-                                                      .search = how_.search,
-                                                      .queue = how_.queue,
-                                                      .execution = request_.execution,
-                                                      .estimate_fits = false});  // from the start alone
-    answer.counters.expanded = found.expanded;
-    answer.outcome = found.status == SearchStatus::found ? Outcome::solved : Outcome::not_connected;
-    for (const VertexId v : found.path) answer.path.push_back(points_[v]);
+  answer.roadmap = {points.size(), edges.size(), 0};
+  search_edges(points, edges, how, execution, answer);
+  std::vector<WrongEdge> wrong;
+  {
+    const StageTimer timer(execution, "proof", proof_s, edges.size());
+    wrong = wrong_edges(polygons, points, edges, execution);
+    answer.figures.push_back({"wrong_edges", wrong});
   }
-
-  void tell_wrong_edges(const PolygonIndex& polygons, Answer& answer) {
-    constexpr std::size_t places = 4096;
-    const Box& box = polygons.box();
-    const double rounding = 1e-12 * std::max(box.width(), box.height());
-    for (const Edge& edge : edges_) {
-      request_.execution.check();
-      const double depth = depth_inside(polygons, {points_[edge.from], points_[edge.to]}, places);
-      if (depth <= rounding) continue;
-      wrong_.push_back({edge.from, edge.to, depth});
-    }
-    answer.figures.push_back({"wrong_edges", wrong_});
+  answer.figures.push_back({"proof_s", proof_s});
+  const auto keep = [&](const char* name, const auto& some) {
+    NamedLines& kept = request.keep->lines.emplace_back(NamedLines{name, {}});
+    for (const auto& edge : some) kept.lines.add(std::array{points[edge.from], points[edge.to]});
+  };
+  if (request.keep != nullptr) {
+    keep("visibility", edges);
+    keep("wrong_edges", wrong);
   }
-
-  void keep_edges(ByProducts& keep) const {
-    NamedLines all{"visibility", {}};
-    for (const Edge& edge : edges_) all.lines.add(std::array{points_[edge.from], points_[edge.to]});
-    NamedLines wrong{"wrong_edges", {}};
-    for (const WrongEdge& edge : wrong_) wrong.lines.add(std::array{points_[edge.from], points_[edge.to]});
-    keep.lines.push_back(std::move(all));
-    keep.lines.push_back(std::move(wrong));
-  }
-
-  void judge(Answer& answer) const {
-    if (answer.outcome != Outcome::solved) return;
-    const StageTimer timer(request_.execution, "verify", answer.seconds.verify);
-    const Verification judged = verify_path(request_.scene, answer.path, verify_options(problem_), request_.execution);
-    if (!judged.verified) return refute(answer, judged);
-    take_verdict(answer, judged);
-  }
-
-  const SolveRequest& request_;
-  const WallProblem& problem_;
-  const VisibilityOptions& how_;
-  std::vector<Vec2> points_;  // corners in the file's order, start, goal
-  std::vector<Edge> edges_;
-  std::vector<WrongEdge> wrong_;
-  double proof_s_ = 0.0;
-};
+  if (answer.outcome != Outcome::solved) return;
+  const StageTimer timer(execution, "verify", answer.seconds.verify);
+  const Verification judged = verify_path(request.scene, answer.path, verify_options(problem), execution);
+  judged.verified ? take_verdict(answer, judged) : refute(answer, judged);
+}
 
 void solve_whole(const SolveRequest& request, const WallProblem& problem, const VisibilityOptions& options,
                  Answer& answer) {
   const VisibilityRoadmap* known = asked_roadmap<VisibilityRoadmap>(request);
-  PlaneObstacles obstacles;
-  if (known == nullptr) obstacles = indexed_obstacles(request, answer);
+  const PlaneObstacles obstacles = known == nullptr ? indexed_obstacles(request, answer) : PlaneObstacles();
   if (stand_on_seams(request, problem, answer)) return;
   PlannedRoadmap<Vec2>* keep = request.keep != nullptr ? &request.keep->roadmap : nullptr;
   const auto& [start, goal] = std::tie(problem.start, problem.goal);
@@ -198,15 +176,6 @@ DiscPath plan_disc(const SolveRequest& request, const WallProblem& problem, Answ
                             execution, known != nullptr ? &known->graph.graph() : nullptr);
 }
 
-ArcPath arcs_of(const DiscPath& path) {
-  ArcPath arcs{{path.pieces.front().from}, {0.0}};
-  for (const DiscPiece& piece : path.pieces) {
-    arcs.points.push_back(piece.to);
-    arcs.turns.push_back(piece.anticlockwise ? piece.angle : -piece.angle);
-  }
-  return arcs;
-}
-
 void solve_disc(const SolveRequest& request, const WallProblem& problem, Answer& answer) {
   const DiscPath path = plan_disc(request, problem, answer);
   answer.outcome = path.outcome;
@@ -220,7 +189,14 @@ void solve_disc(const SolveRequest& request, const WallProblem& problem, Answer&
     answer.path_figures.push_back({"arcs", path.arcs()});
     answer.path_figures.push_back({"excess", std::max(0.0, drawn - path.length)});
     answer.lower_bound = path.lower_bound;
-    if (request.keep != nullptr) request.keep->arcs = arcs_of(path);
+    if (request.keep != nullptr) {
+      ArcPath& arcs = request.keep->arcs;
+      arcs = {{path.pieces.front().from}, {0.0}};
+      for (const DiscPiece& piece : path.pieces) {
+        arcs.points.push_back(piece.to);
+        arcs.turns.push_back(piece.anticlockwise ? piece.angle : -piece.angle);
+      }
+    }
   }
   const PointJudge judge = judge_of(request, problem);
   answer.outcome = judge.settled(answer.outcome);
@@ -243,12 +219,12 @@ Answer solve_by_visibility(const SolveRequest& request) {
   if (options.edges == VisibilityEdges::full) answer.options.push_back({"full", true});
   if (options.lazy) answer.options.push_back({"lazy", true});
   if (sample_step) answer.options.push_back({"sampled_edges", *sample_step});
-  SampledVisibilitySolve sampled(request, problem, options);
+  double proof_s = 0.0;
   answer_within_limits(answer, [&] {
-    if (sample_step) return sampled.run(answer);
+    if (sample_step) return solve_on_sampled_edges(request, problem, options, proof_s, answer);
     solve_whole(request, problem, options, answer);
   });
-  answer.solve_s -= sampled.proof_s();
+  answer.solve_s -= proof_s;
   return answer;
 }
 
@@ -261,8 +237,7 @@ Answer solve_by_cells(const SolveRequest& request) {
   answer.options.push_back({"doors", std::string(name_of(options.doors))});
   answer_within_limits(answer, [&] {
     const CellRoadmap* known = asked_roadmap<CellRoadmap>(request);
-    PlaneObstacles obstacles;
-    if (known == nullptr) obstacles = indexed_obstacles(request, answer);
+    const PlaneObstacles obstacles = known == nullptr ? indexed_obstacles(request, answer) : PlaneObstacles();
     if (stand_on_seams(request, problem, answer)) return;
     CellPlan plan;
     Solution<Vec2> solution;
@@ -279,17 +254,6 @@ Answer solve_by_cells(const SolveRequest& request) {
     judge_of(request, problem).verify_solved(answer);
   });
   return answer;
-}
-
-NamedLines lines_of(const MedialAxis& axis) {
-  NamedLines lines{"medial_axis", {}};
-  std::vector<Vec2> points;
-  for (const AxisEdge& edge : axis.edges) {
-    points.assign(1, axis.vertices[edge.from]);
-    axis.curve(edge).append_polyline(points);
-    lines.lines.add(points);
-  }
-  return lines;
 }
 
 constexpr AskedWords plane_words = restriction_words | choice_words;
@@ -431,7 +395,15 @@ Answer solve_on_medial_axis(const SolveRequest& request) {
       answer.path_figures.push_back({"axis_clearance", plan.axis_clearance});
     }
     const MedialAxis* axis = known != nullptr ? &known->axis : plan.made ? &plan.made->axis : nullptr;
-    if (request.keep != nullptr && axis != nullptr) request.keep->lines.push_back(lines_of(*axis));
+    if (request.keep != nullptr && axis != nullptr) {
+      NamedLines& lines = request.keep->lines.emplace_back(NamedLines{"medial_axis", {}});
+      std::vector<Vec2> points;
+      for (const AxisEdge& edge : axis->edges) {
+        points.assign(1, axis->vertices[edge.from]);
+        axis->curve(edge).append_polyline(points);
+        lines.lines.add(points);
+      }
+    }
     judge.verify_solved(answer);
   });
   return answer;

@@ -220,12 +220,11 @@ class ThroughStops {
 
   /// All that was done, for legs that lead nowhere, too.
   void take_work() {
-    whole_.counters = {};
-    whole_.seconds = {};
-    whole_.solve_s = 0.0;
-    whole_.roadmap.milestones = 0;
-    whole_.roadmap.edges = 0;
-    add_work(whole_, work_);
+    whole_.counters = work_.counters;
+    whole_.seconds = work_.seconds;
+    whole_.solve_s = work_.solve_s;
+    whole_.roadmap.milestones = work_.roadmap.milestones;
+    whole_.roadmap.edges = work_.roadmap.edges;
     std::erase_if(whole_.figures, [](const NamedFigure& figure) { return figure.name.starts_with("lattice_"); });
   }
 
@@ -292,7 +291,7 @@ class Visits {
   }
 
   Answer run() {
-    if (!find_order()) return std::move(failed_);
+    if (std::optional<Answer> failed = find_order()) return *std::move(failed);
     std::vector<std::vector<double>> stops;
     for (const std::uint64_t place : order_) stops.push_back(rule_.visit[place]);
     Question question = question_;
@@ -312,7 +311,10 @@ class Visits {
     answer.goal_index.reset();  // the rule has the places alone
     if (!answer.verified) return answer;
     answer.order = order_;
-    tell_bound(answer);
+    const bool in_metric = gets_better(request_.planner);
+    if (is_arm(answer.problem.robot) || (answer.cost && !answer.price && !in_metric)) return answer;
+    answer.lower_bound = bound_of_choice(*plane_point(answer.problem.start), *plane_point(answer.problem.goal), rule_,
+                                         is_open_, off_goal(answer));
     return answer;
   }
 
@@ -336,11 +338,11 @@ class Visits {
     return found;
   }
 
-  /// false: there is no way to one of the places.
-  bool find_order() {
+  /// none: it is found; else there is no way to one of the places.
+  std::optional<Answer> find_order() {
     const std::size_t count = rule_.visit.size();
     order_.assign(1, 0);
-    if (count == 1) return true;
+    if (count == 1) return std::nullopt;
     start_ = start_of(request_);  // none: the file names it
     std::vector<std::vector<double>> at;
     std::vector<double> first;
@@ -376,7 +378,7 @@ class Visits {
     }
     if (stopped) return fail(std::move(*stopped));
     take_order(first, between, last);
-    return true;
+    return std::nullopt;
   }
 
   /// What was not found is the dearest by far: other headings may lead on there.
@@ -400,25 +402,17 @@ class Visits {
     order_ = best_order(costs)->order;
   }
 
-  bool fail(Answer answer) {
-    failed_ = std::move(answer);
-    claim_nothing(failed_);
-    failed_.figures.push_back({"stops_reached", std::uint64_t{0}});
-    failed_.planner = name_of(request_.planner);
-    if (!start_.empty()) failed_.problem.start = start_;
-    failed_.problem.goal = question_.goal.empty() ? failed_.problem.start : question_.goal;
-    failed_.problem.rule = rule_;
-    failed_.counters = work_.counters;
-    failed_.seconds = work_.seconds;
-    failed_.solve_s = work_.solve_s;
-    return false;
-  }
-
-  void tell_bound(Answer& answer) const {
-    const bool in_metric = gets_better(request_.planner);
-    if (is_arm(answer.problem.robot) || (answer.cost && !answer.price && !in_metric)) return;
-    answer.lower_bound = bound_of_choice(*plane_point(answer.problem.start), *plane_point(answer.problem.goal), rule_,
-                                         is_open_, off_goal(answer));
+  Answer fail(Answer failed) const {
+    claim_nothing(failed);
+    failed.figures.push_back({"stops_reached", std::uint64_t{0}});
+    failed.planner = name_of(request_.planner);
+    if (!start_.empty()) failed.problem.start = start_;
+    failed.problem.goal = question_.goal.empty() ? failed.problem.start : question_.goal;
+    failed.problem.rule = rule_;
+    failed.counters = work_.counters;
+    failed.seconds = work_.seconds;
+    failed.solve_s = work_.solve_s;
+    return failed;
   }
 
   static constexpr double none = std::numeric_limits<double>::infinity();
@@ -431,7 +425,6 @@ class Visits {
   std::vector<double> start_;  // of the first way
   std::vector<std::uint64_t> order_;
   Answer work_;  // what finding the order took
-  Answer failed_;
 };
 
 /// Throws UsageError for stops that are no states of the body.

@@ -27,33 +27,20 @@
 namespace warren {
 namespace {
 
-Path<Se2> without_half_turns(const Path<Se2>& path) {
-  constexpr double most_rad = 3.0;
-  Path<Se2> cut;
-  for (const Se2& pose : path) {
-    if (!cut.empty() && std::abs(turn_between(cut.back().theta, pose.theta)) > most_rad) {
-      cut.push_back(interpolate(Se2(cut.back()), pose, 0.5));
-    }
-    cut.push_back(pose);
-  }
-  return cut;
-}
-
 /// Verifies the path of a polygon that may turn, whichever planner found it, and fills it into the answer with what is
 /// said of it. A leg of about half a turn, which could be read either way, gets a pose in its middle. Throws as
 /// take_verdict().
 void judge_polygon(const PoseJudge& judge, const Path<Se2>& path, Answer& answer) {
-  const Path<Se2> poses = without_half_turns(path);
+  constexpr double most_rad = 3.0;
+  Path<Se2> poses;
+  for (const Se2& pose : path) {
+    if (!poses.empty() && std::abs(turn_between(poses.back().theta, pose.theta)) > most_rad) {
+      poses.push_back(interpolate(Se2(poses.back()), pose, 0.5));
+    }
+    poses.push_back(pose);
+  }
   const StageTimer timer(judge.execution, "verify", answer.seconds.verify, poses.size());
   take_poses(answer, judge.judged(poses, verify_options(judge.problem)), poses);
-}
-
-Verdict recheck_turning(const Scene& scene, const Question& question, const RecordedAnswer& answer,
-                        const Execution& execution) {
-  const PoseProblem problem = pose_problem(scene, question, turning_body);
-  check_state_width(answer, 3, turning_body);
-  const PoseJudge judge{scene, problem, execution};
-  return {judge.judged(poses_of(answer.states), verify_options(problem)), problem.general()};
 }
 
 class TurningPolygon : public PoseBody {
@@ -62,13 +49,12 @@ class TurningPolygon : public PoseBody {
   static constexpr bool has_cost = true;
 
   explicit TurningPolygon(const SolveRequest& request)
-      : PoseBody(request, pose_problem(request.scene, request.question, turning_body)),
-        prices_(std::make_unique<PosePrices>(scene_, prices_of(scene_, request.question), problem_.clearance)) {}
+      : PoseBody(request, pose_problem(request.scene, request.question)) {}
 
   /// The same both ways to the last bit.
   MotionLength<Se2> price_motions(const World& world) const {
-    if (!prices_->is_priced()) return {};
-    return [&world, &prices = *prices_](const Se2& a, const Se2& b) {
+    if (!pose_prices_->is_priced()) return {};
+    return [&world, &prices = *pose_prices_](const Se2& a, const Se2& b) {
       auto query = world.make_query();
       const bool is_forward = std::tie(a.x, a.y, a.theta) <= std::tie(b.x, b.y, b.theta);
       const Se2& from = is_forward ? a : b;
@@ -87,9 +73,6 @@ class TurningPolygon : public PoseBody {
     return shortcut(world, std::move(path), plane_length, answer);
   }
   void judge(const World&, const Path<Se2>& path, Answer& answer) const { judge_polygon(pose_judge(), path, answer); }
-
- private:
-  std::unique_ptr<PosePrices> prices_;  // motions refer to it
 };
 
 constexpr AskedWords turning_words = restriction_words | pose_choice_words;
@@ -103,24 +86,16 @@ constexpr PlannerChoice turning_planners[] = {{PlannerKind::rrt_connect, rrt_con
 
 bool fits_turning(const Scene&, const RobotSpec& robot) { return robot.kind == RobotKind::polygon; }
 
-/// One solve of a planner that doesn't turn the body on its way.
-class UnturnedSolve {
- protected:
-  explicit UnturnedSolve(const SolveRequest& request)
-      : request_(request), problem_(pose_problem(request.scene, request.question, turning_body)) {}
+PoseJudge judge_of(const SolveRequest& request, const PoseProblem& problem) {
+  return {request.scene, problem, request.execution, request.asked.judged()};
+}
 
-  PoseJudge judge() const { return {request_.scene, problem_, request_.execution, request_.asked.judged()}; }
-  /// At the start's heading.
-  Path<Se2> poses_along(const Path<Vec2>& path) const {
-    Path<Se2> poses;
-    for (const Vec2 p : path) poses.push_back({p.x, p.y, problem_.start.theta});
-    return poses;
-  }
-
-  const SolveRequest& request_;
-  PoseProblem problem_;
-  Answer answer_;
-};
+/// Of a planner that doesn't turn the body on its way.
+Path<Se2> poses_along(const Path<Vec2>& path, double heading) {
+  Path<Se2> poses;
+  for (const Vec2 p : path) poses.push_back({p.x, p.y, heading});
+  return poses;
+}
 
 // The planner voronoi for a polygon that could turn: along the medial axis of the scene, or the skeleton of a map, with
 // the disc that holds the body in any heading, so the heading of the start serves all the way; where the goal names
@@ -133,7 +108,7 @@ constexpr PlannerChoice turning_axis_planners[] = {
 /// What `solve` makes of the same question for the disc that holds the body.
 template <class Solve>
 auto of_disc(const SolveRequest& request, Solve solve) {
-  const PoseProblem problem = pose_problem(request.scene, request.question, turning_body);
+  const PoseProblem problem = pose_problem(request.scene, request.question);
   Question disc;
   disc.robot = RobotSpec{.kind = RobotKind::disc, .radius = extent_of(problem.robot), .outline = {}};
   disc.start = {problem.start.x, problem.start.y};
@@ -145,148 +120,139 @@ auto of_disc(const SolveRequest& request, Solve solve) {
   return solve(asked);
 }
 
-class AxisSolve : UnturnedSolve {
- public:
-  explicit AxisSolve(const SolveRequest& request) : UnturnedSolve(request) {}
-
-  Answer run() {
-    answer_ = of_disc(request_, request_.scene.map ? solve_on_skeleton : solve_on_medial_axis);
-    answer_.problem = problem_.general();
-    if (answer_.outcome == Outcome::stopped) return std::move(answer_);
-    const double seconds = answer_.solve_s;
-    answer_within_limits(answer_, [&] { finish(); });
-    answer_.solve_s += seconds;
-    return std::move(answer_);
+/// A disc that starts on water may stay there, a polygon may not.
+void check_ends_on_map(const PoseJudge& judge, Answer& answer) {
+  const Se2& start = judge.problem.start;
+  const Vec2 goal = answer.path.back();
+  if (!judge.stands_free(start)) {
+    answer.outcome = Outcome::start_blocked;
+  } else if (!judge.stands_free({goal.x, goal.y, start.theta})) {
+    answer.outcome = Outcome::goal_blocked;
   }
+}
 
- private:
-  void finish() {
-    if (answer_.outcome != Outcome::solved) settle_blocked_ends();
-    if (answer_.outcome == Outcome::solved && request_.scene.map) check_ends_on_map();
-    if (answer_.outcome != Outcome::solved) return;
-    Path<Se2> poses = poses_along(answer_.path);
-    turn_at_the_goal(poses);
-    judge_polygon(judge(), poses, answer_);
+/// In steps of at most a third of a turn, so that the way round is never in doubt.
+void turn_at_the_goal(const PoseProblem& problem, Path<Se2>& poses) {
+  if (problem.any_heading()) return;
+  constexpr double most_rad = 2.0 * std::numbers::pi / 3.0;
+  const double turn = turn_between(problem.start.theta, problem.goal[2]);
+  const auto steps = static_cast<int>(std::ceil(std::abs(turn) / most_rad));
+  for (int i = 1; i <= steps; ++i) {
+    const double theta = i == steps ? problem.goal[2] : problem.start.theta + turn * i / steps;
+    poses.push_back({problem.goal[0], problem.goal[1], theta});
   }
+}
 
-  /// A disc that starts on water may stay there, a polygon may not.
-  void check_ends_on_map() {
-    const Vec2 goal = answer_.path.back();
-    if (!judge().stands_free(problem_.start)) {
-      answer_.outcome = Outcome::start_blocked;
-    } else if (!judge().stands_free({goal.x, goal.y, problem_.start.theta})) {
-      answer_.outcome = Outcome::goal_blocked;
-    }
+/// The disc doesn't fit; the body may.
+void settle_blocked_ends(const PoseJudge& judge, Answer& answer) {
+  const bool at_start = answer.outcome == Outcome::start_blocked;
+  const bool is_settled = !is_blocked(answer.outcome);
+  answer.outcome = judge.settled(answer.outcome);
+  if (is_settled || is_blocked(answer.outcome)) return;
+  if (judge.problem.is_at_goal()) {
+    answer.outcome = Outcome::solved;
+    answer.path = {judge.problem.start.position(), judge.problem.goal_pose().position()};
+    return;
   }
+  answer.figures.push_back({"cause", std::string(at_start ? "disc_blocked_at_start" : "disc_blocked_at_goal")});
+}
 
-  /// In steps of at most a third of a turn, so that the way round is never in doubt.
-  void turn_at_the_goal(Path<Se2>& poses) const {
-    if (problem_.any_heading()) return;
-    constexpr double most_rad = 2.0 * std::numbers::pi / 3.0;
-    const double turn = turn_between(problem_.start.theta, problem_.goal[2]);
-    const auto steps = static_cast<int>(std::ceil(std::abs(turn) / most_rad));
-    for (int i = 1; i <= steps; ++i) {
-      const double theta = i == steps ? problem_.goal[2] : problem_.start.theta + turn * i / steps;
-      poses.push_back({problem_.goal[0], problem_.goal[1], theta});
-    }
-  }
-
-  /// The disc doesn't fit; the body may.
-  void settle_blocked_ends() {
-    const bool at_start = answer_.outcome == Outcome::start_blocked;
-    const bool is_settled = !is_blocked(answer_.outcome);
-    answer_.outcome = judge().settled(answer_.outcome);
-    if (is_settled || is_blocked(answer_.outcome)) return;
-    if (problem_.is_at_goal()) {
-      answer_.outcome = Outcome::solved;
-      answer_.path = {problem_.start.position(), problem_.goal_pose().position()};
-      return;
-    }
-    answer_.figures.push_back({"cause", std::string(at_start ? "disc_blocked_at_start" : "disc_blocked_at_goal")});
-  }
-};
-
-std::unique_ptr<RoadmapSession> open_turning_axis(const SolveRequest& request, const RoadmapArrays& arrays,
-                                                  const ConnectionRule& rule) {
-  return of_disc(request, [&](const SolveRequest& disc) { return open_geometric(disc, arrays, rule); });
+Answer solve_along_axis(const SolveRequest& request) {
+  const PoseProblem problem = pose_problem(request.scene, request.question);
+  Answer answer = of_disc(request, request.scene.map ? solve_on_skeleton : solve_on_medial_axis);
+  answer.problem = problem.general();
+  if (answer.outcome == Outcome::stopped) return answer;
+  const double seconds = answer.solve_s;
+  answer_within_limits(answer, [&] {
+    const PoseJudge judge = judge_of(request, problem);
+    if (answer.outcome != Outcome::solved) settle_blocked_ends(judge, answer);
+    if (answer.outcome == Outcome::solved && request.scene.map) check_ends_on_map(judge, answer);
+    if (answer.outcome != Outcome::solved) return;
+    Path<Se2> poses = poses_along(answer.path, problem.start.theta);
+    turn_at_the_goal(problem, poses);
+    judge_polygon(judge, poses, answer);
+  });
+  answer.solve_s += seconds;
+  return answer;
 }
 
 // The planners that don't turn a polygon, in scenes: on maps, whose cells all touch, they have none. By so little as
 // the body keeps off the obstacles (docs/algorithms.md), times the corners that it passes, the path may be longer than
 // the shortest.
 
-class FixedAngleSolve : UnturnedSolve {
- public:
-  explicit FixedAngleSolve(const SolveRequest& request) : UnturnedSolve(request) {
-    constexpr double same_rad = 1e-9;
-    if (!problem_.any_heading() && !(std::abs(turn_between(problem_.start.theta, problem_.goal[2])) <= same_rad)) {
-      throw UsageError(fmt::format("@planner: {} does not turn the body; start and goal have different angles",
-                                   name_of(request.planner)));
-    }
-    const SearchChoice search = search_choice(request.options);
-    answer_.problem = problem_.general();
-    answer_.planner = name_of(request.planner);
-    answer_.search = name_of(search.search);
-    if (request.planner != PlannerKind::cells) return;
-    cells_ = cell_options(request.options, search);
-    cells_->overlaps = Overlaps::united;
-    answer_.options.push_back({"doors", std::string(name_of(cells_->doors))});
-  }
+double world_size(const Scene& scene, const std::vector<Vec2>& outline) {
+  Box box = obstacle_box(scene);
+  if (scene.bounds) box.include(*scene.bounds);
+  double largest = outline_reach(outline);
+  if (box.empty()) return largest;
+  for (const double c : {box.min.x, box.min.y, box.max.x, box.max.y}) largest = std::max(largest, std::abs(c));
+  return largest;
+}
 
-  void run() {
-    const Solution<Vec2> solution = plan();
-    if (cells_) answer_.cells = CellCount{solution.roadmap.milestones, solution.roadmap.edges};
-    take_account(answer_, solution);
-    answer_.outcome = judge().settled(answer_.outcome);
-    if (answer_.outcome == Outcome::solved) judge_polygon(judge(), poses_along(solution.path), answer_);
-  }
-  Answer& answer() { return answer_; }
+/// Is there any place where the body, at the start's angle, has its room in the bounds?
+bool fits_in_bounds(const std::optional<Box>& bounds, const PoseProblem& problem, double room) {
+  if (!bounds) return true;
+  Box body;
+  for (const Vec2 p : problem.robot.outline) body.include(placed({0.0, 0.0, problem.start.theta}, p));
+  return body.width() + 2.0 * room < bounds->width() && body.height() + 2.0 * room < bounds->height();
+}
 
- private:
-  /// The way of the reference point. A body that does not fit in the bounds at this angle starts blocked.
-  Solution<Vec2> plan() {
-    const std::vector<Vec2>& outline = problem_.robot.outline;
-    const double room = problem_.clearance + 1e-10 * world_size();
-    const std::size_t disc_corners = problem_.clearance > 0.0 ? 32 : 4;  // of a polygon around the clearance's disc
-    Solution<Vec2> solution;
-    solution.outcome = Outcome::start_blocked;
-    if (!fits_in_bounds(2.0 * room)) return solution;
-    PlaneObstacles obstacles;
-    {
-      const StageTimer timer(request_.execution, "index", answer_.seconds.index);
-      obstacles =
-          translation_obstacles(request_.scene, outline, problem_.start.theta, room, disc_corners, request_.execution);
-    }
-    const Vec2 start = problem_.start.position();
-    const Vec2 goal = problem_.goal_pose().position();
-    CellPlan plan;
-    solution = cells_ ? plan_through_cells(obstacles, start, goal, *cells_, request_.execution, &plan)
-                      : visibility_path(obstacles, start, goal, {}, request_.execution);
-    if (request_.keep == nullptr) return solution;
-    if (cells_) request_.keep->lines.push_back(doors_of(plan.cells));
-    request_.keep->lines.push_back({"blocked", obstacles.polygons, true});
-    return solution;
+/// The way of the reference point, through cells or, without, by the visibility graph. A body that does not fit in the
+/// bounds at this angle starts blocked.
+Solution<Vec2> plan_at_fixed_angle(const SolveRequest& request, const PoseProblem& problem,
+                                   const std::optional<CellOptions>& cells, Answer& answer) {
+  const std::vector<Vec2>& outline = problem.robot.outline;
+  const double room = problem.clearance + 1e-10 * world_size(request.scene, outline);
+  const std::size_t disc_corners = problem.clearance > 0.0 ? 32 : 4;  // of a polygon around the clearance's disc
+  Solution<Vec2> solution;
+  solution.outcome = Outcome::start_blocked;
+  if (!fits_in_bounds(request.scene.bounds, problem, 2.0 * room)) return solution;
+  PlaneObstacles obstacles;
+  {
+    const StageTimer timer(request.execution, "index", answer.seconds.index);
+    obstacles =
+        translation_obstacles(request.scene, outline, problem.start.theta, room, disc_corners, request.execution);
   }
-  double world_size() const {
-    const Scene& scene = request_.scene;
-    Box box = obstacle_box(scene);
-    if (scene.bounds) box.include(*scene.bounds);
-    double largest = outline_reach(problem_.robot.outline);
-    if (box.empty()) return largest;
-    for (const double c : {box.min.x, box.min.y, box.max.x, box.max.y}) largest = std::max(largest, std::abs(c));
-    return largest;
-  }
-  /// Is there any place where the body, at the start's angle, has its room in the bounds?
-  bool fits_in_bounds(double room) const {
-    const std::optional<Box>& bounds = request_.scene.bounds;
-    if (!bounds) return true;
-    Box body;
-    for (const Vec2 p : problem_.robot.outline) body.include(placed({0.0, 0.0, problem_.start.theta}, p));
-    return body.width() + 2.0 * room < bounds->width() && body.height() + 2.0 * room < bounds->height();
-  }
+  const Vec2 start = problem.start.position();
+  const Vec2 goal = problem.goal_pose().position();
+  CellPlan plan;
+  solution = cells ? plan_through_cells(obstacles, start, goal, *cells, request.execution, &plan)
+                   : visibility_path(obstacles, start, goal, {}, request.execution);
+  if (request.keep == nullptr) return solution;
+  if (cells) request.keep->lines.push_back(doors_of(plan.cells));
+  request.keep->lines.push_back({"blocked", obstacles.polygons, true});
+  return solution;
+}
 
-  std::optional<CellOptions> cells_;  // none: the visibility graph
-};
+Answer solve_at_fixed_angle(const SolveRequest& request) {
+  const PoseProblem problem = pose_problem(request.scene, request.question);
+  constexpr double same_rad = 1e-9;
+  if (!problem.any_heading() && !(std::abs(turn_between(problem.start.theta, problem.goal[2])) <= same_rad)) {
+    throw UsageError(fmt::format("@planner: {} does not turn the body; start and goal have different angles",
+                                 name_of(request.planner)));
+  }
+  const SearchChoice search = search_choice(request.options);
+  Answer answer;
+  answer.problem = problem.general();
+  answer.planner = name_of(request.planner);
+  answer.search = name_of(search.search);
+  std::optional<CellOptions> cells;
+  if (request.planner == PlannerKind::cells) {
+    cells = cell_options(request.options, search);
+    cells->overlaps = Overlaps::united;
+    answer.options.push_back({"doors", std::string(name_of(cells->doors))});
+  }
+  answer_within_limits(answer, [&] {
+    const Solution<Vec2> solution = plan_at_fixed_angle(request, problem, cells, answer);
+    if (cells) answer.cells = CellCount{solution.roadmap.milestones, solution.roadmap.edges};
+    take_account(answer, solution);
+    const PoseJudge judge = judge_of(request, problem);
+    answer.outcome = judge.settled(answer.outcome);
+    const Path<Se2> poses = poses_along(solution.path, problem.start.theta);
+    if (answer.outcome == Outcome::solved) judge_polygon(judge, poses, answer);
+  });
+  return answer;
+}
 
 constexpr AskedWords fixed_words = restriction_words | AskedWords{AskedWord::goal};
 constexpr PlannerChoice fixed_angle_planners[] = {
@@ -303,7 +269,7 @@ SolveKind turning_kind() {
           turning_planners,
           usually<PlannerKind::rrt_connect>,
           solve_sampled<TurningPolygon>,
-          recheck_turning,
+          recheck_poses,
           build_sampled<TurningPolygon>,
           open_sampled<TurningPolygon>};
 }
@@ -313,15 +279,17 @@ SolveKind turning_axis_kind() {
           fits_turning,
           turning_axis_planners,
           usually<PlannerKind::voronoi>,
-          [](const SolveRequest& request) { return AxisSolve(request).run(); },
+          solve_along_axis,
           nullptr,
           [](const SolveRequest& request) { return of_disc(request, build_geometric); },
-          open_turning_axis};
+          [](const SolveRequest& request, const RoadmapArrays& arrays, const ConnectionRule& rule) {
+            return of_disc(request, [&](const SolveRequest& disc) { return open_geometric(disc, arrays, rule); });
+          }};
 }
 
 SolveKind fixed_angle_kind() {
   return {"a polygon at a fixed angle", fits_fixed_angle, fixed_angle_planners, usually<PlannerKind::visibility>,
-          [](const SolveRequest& request) { return answered(FixedAngleSolve(request)); }};
+          solve_at_fixed_angle};
 }
 
 }  // namespace warren

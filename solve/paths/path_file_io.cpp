@@ -20,12 +20,9 @@
 namespace warren {
 namespace {
 
-struct Row {
-  std::size_t leg = 0;
+struct Row : PathMoment {
   PathState state;
   double along = 0.0;
-  double time_s = 0.0;
-  double speed = 0.0;
 };
 
 class Rows {
@@ -86,24 +83,21 @@ class Rows {
         execution_.poll(leg);
         along += legs_.length(leg);
       }
-      tell_at(moment, t, along + moment.share * legs_.length(leg));
+      tell_at(moment, along + moment.share * legs_.length(leg));
       if (t >= timed_->duration_s()) return;
     }
   }
   void tell(std::size_t leg, double share, double along) {
-    if (!timed_) return tell_at({leg, share, 0.0}, 0.0, along);
-    double time_s = 0.0;
-    const PathMoment moment = timed_->at_share(leg, share, time_s);
-    tell_at(moment, time_s, along);
+    tell_at(timed_ ? timed_->at_share(leg, share) : PathMoment{leg, share}, along);
   }
-  void tell_at(const PathMoment& moment, double time_s, double along) {
+  void tell_at(const PathMoment& moment, double along) {
     execution_.poll(++written_);
     for (; leg_ < moment.leg; ++leg_) add_turns(leg_, turned_);
     std::array<double, most_joints> turned = turned_;
     if (moment.share >= 1.0) add_turns(moment.leg, turned);  // whose end is the next state as it stands
     PathState state = legs_.at(moment.leg, moment.share);
     for (std::size_t k = 0; k < state.width; ++k) state.numbers[k] += turned[k];
-    (*visit_)({moment.leg, state, along, time_s, moment.speed});
+    (*visit_)({moment, state, along});
   }
   /// Joints without end go the shorter way around: what is read as straight lines between rows must count on.
   void add_turns(std::size_t leg, std::array<double, most_joints>& turned) const {

@@ -103,33 +103,30 @@ auto TimedPath::ramp(std::size_t leg) const -> Ramp {
 }
 
 PathMoment TimedPath::at(double t) const {
-  if (t >= times_.back()) return {std::max<std::size_t>(legs_->leg_count(), 1) - 1, 1.0, 0.0};
+  if (t >= times_.back()) return {std::max<std::size_t>(legs_->leg_count(), 1) - 1, 1.0, 0.0, t};
   const auto next = std::upper_bound(times_.begin() + 1, times_.end() - 1, t);
   const auto leg = static_cast<std::size_t>(next - times_.begin()) - 1;
   const double length = legs_->length(leg);
-  if (!(length > 0.0)) return {leg, 1.0, 0.0};
+  if (!(length > 0.0)) return {leg, 1.0, 0.0, t};
   const Ramp r = ramp(leg);
   const double s = std::clamp(t - times_[leg], 0.0, r.duration_s());
   const double gear = legs_->gear(leg);
-  if (std::isinf(r.rate)) return {leg, std::min(1.0, s / r.level_s), gear * r.top};
+  if (std::isinf(r.rate)) return {leg, std::min(1.0, s / r.level_s), gear * r.top, t};
   const double up = std::min(s, r.up_s);
   const double level = std::min(s - up, r.level_s);
   const double down = s - up - level;
   const double way = up * (r.from + 0.5 * r.rate * up) + level * r.top + down * (r.top - 0.5 * r.rate * down);
   const double speed = r.from + r.rate * up - r.rate * down;
-  return {leg, std::clamp(way / length, 0.0, 1.0), gear * std::max(0.0, speed)};
+  return {leg, std::clamp(way / length, 0.0, 1.0), gear * std::max(0.0, speed), t};
 }
 
-PathMoment TimedPath::at_share(std::size_t leg, double share, double& time_s) const {
+PathMoment TimedPath::at_share(std::size_t leg, double share) const {
   const double length = legs_->length(leg);
   const double gear = legs_->gear(leg);
-  time_s = times_[leg];
-  if (!(length > 0.0)) return {leg, share, 0.0};
+  double time_s = times_[leg];
+  if (!(length > 0.0)) return {leg, share, 0.0, time_s};
   const Ramp r = ramp(leg);
-  if (std::isinf(r.rate)) {
-    time_s += share * r.level_s;
-    return {leg, share, gear * r.top};
-  }
+  if (std::isinf(r.rate)) return {leg, share, gear * r.top, time_s + share * r.level_s};
   const double way = share * length;
   const double up = 0.5 * r.up_s * (r.from + r.top);
   const double level = r.level_s * r.top;
@@ -143,13 +140,12 @@ PathMoment TimedPath::at_share(std::size_t leg, double share, double& time_s) co
     speed = std::sqrt(std::max(0.0, r.to * r.to + 2.0 * r.rate * (length - way)));
     time_s += r.up_s + r.level_s + (r.top - speed) / r.rate;
   }
-  return {leg, share, gear * speed};
+  return {leg, share, gear * speed, time_s};
 }
 
 PathLegs::PathLegs(const Answer& answer)
     : answer_(&answer),
       shape_(answer.states.empty() ? LegShape::straight : shape_of(answer.problem.robot)),
-      width_(answer.state_width()),
       state_count_(answer.state_count()) {
   if (answer.problem.robot.kind == RobotKind::car) reach_ = answer.problem.robot.radius;
   for (const Vec2 corner : answer.problem.robot.outline) reach_ = std::max(reach_, norm(corner));
@@ -174,7 +170,7 @@ double PathLegs::whole_turns(std::size_t i, std::size_t k) const {
 
 std::array<double, most_joints> PathLegs::direction(std::size_t leg) const {
   std::array<double, most_joints> way{};
-  for (std::size_t k = 0; k < width_; ++k) way[k] = joint_turn(leg, k);
+  for (std::size_t k = 0; k < width(); ++k) way[k] = joint_turn(leg, k);
   if (shape_ == LegShape::turning || shape_ == LegShape::driven) {
     way[2] = reach_ * turn_between(number(leg, 2), number(leg + 1, 2));
   }
@@ -230,13 +226,13 @@ bool PathLegs::goes_on(std::size_t i, std::size_t j) const {
 
 PathState PathLegs::at(std::size_t i, double share) const {
   PathState state;
-  state.width = width_;
+  state.width = width();
   if (shape_ == LegShape::driven) {
     const Se2 pose = pose_on_leg(this->pose(i), this->pose(i + 1), share);
     state.numbers = {pose.x, pose.y, pose.theta};
     return state;
   }
-  for (std::size_t k = 0; k < width_; ++k) {
+  for (std::size_t k = 0; k < state.width; ++k) {
     state.numbers[k] = share >= 1.0 ? number(i + 1, k) : number(i, k) + share * joint_turn(i, k);
   }
   if (shape_ == LegShape::turning && share > 0.0 && share < 1.0) {

@@ -33,7 +33,7 @@ class PathLegs {
   explicit PathLegs(const Answer& answer);
 
   LegShape shape() const { return shape_; }
-  std::size_t width() const { return width_; }
+  std::size_t width() const { return answer_->state_width(); }
   std::size_t leg_count() const { return state_count_ - 1; }
   /// In units of length: of a body that turns so much that no point of it goes farther; of an arm, the farthest way of
   /// a joint in rad or, where it slides, m. Leg i leads from state i to state i + 1.
@@ -61,7 +61,6 @@ class PathLegs {
 
   const Answer* answer_;
   LegShape shape_;
-  std::size_t width_;
   std::size_t state_count_;
   double reach_ = 0.0;  // of a turning body's farthest point from the reference point
 };
@@ -83,6 +82,7 @@ struct PathMoment {
   std::size_t leg = 0;
   double share = 0.0;  ///< of the leg
   double speed = 0.0;  ///< in the leg's units of length a second; negative: backwards
+  double time_s = 0.0;
 };
 
 /// Refers to the legs.
@@ -94,7 +94,7 @@ class TimedPath {
   double duration_s() const { return times_.back(); }
   /// 0 <= t <= duration_s().
   PathMoment at(double t) const;
-  PathMoment at_share(std::size_t leg, double share, double& time_s) const;
+  PathMoment at_share(std::size_t leg, double share) const;
 
  private:
   /// The trapezoid of one leg.

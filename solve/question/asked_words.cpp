@@ -24,16 +24,15 @@ void check_number(std::string_view option, std::string_view what, const std::opt
   if (number && !(*number >= low && *number <= high)) refuse_number(option, what, range, *number);
 }
 
+AskedWords said(bool is_said, AskedWord word) { return is_said ? AskedWords{word} : AskedWords{}; }
+
 void check_factor(std::string_view option, const std::optional<double>& factor) {
   check_number(option, "a factor", factor, 1.0, largest_price, fmt::format("from 1 to {}", largest_price));
 }
 
 void check_area(std::string_view option, const std::vector<Vec2>& corners) {
   if (corners.size() < 3) throw UsageError(fmt::format("@{}: an area takes three corners or more", option));
-  const auto is_coordinate = [](Vec2 p) {
-    return std::abs(p.x) <= largest_coordinate && std::abs(p.y) <= largest_coordinate;
-  };
-  if (std::ranges::all_of(corners, is_coordinate)) return;
+  if (std::ranges::all_of(corners, [](Vec2 p) { return is_coordinate(p.x) && is_coordinate(p.y); })) return;
   throw UsageError(fmt::format("@{}: coordinates are numbers of at most 1e60", option));
 }
 
@@ -52,7 +51,6 @@ void check_mask(const PriceMask& mask) {
 
 void check_places(std::string_view option, const std::vector<std::vector<double>>& places, std::size_t least = 2) {
   for (const std::vector<double>& place : places) {
-    const auto is_coordinate = [](double x) { return std::abs(x) <= largest_coordinate; };
     const bool known = place.size() >= least && place.size() <= most_joints;
     if (known && std::ranges::all_of(place, is_coordinate)) continue;
     throw UsageError(fmt::format("@{}: a place is X,Y or X,Y,THETA, each at most 1e60", option));
@@ -62,38 +60,28 @@ void check_places(std::string_view option, const std::vector<std::vector<double>
 }  // namespace
 
 AskedWords words_in(const Prices& prices) {
-  AskedWords words;
-  const auto add = [&](bool is_said, AskedWord word) {
-    if (is_said) words = words | AskedWords{word};
-  };
-  add(prices.clearance.has_value(), AskedWord::clearance_price);
-  add(!prices.areas.empty(), AskedWord::area);
+  AskedWords words =
+      said(prices.clearance.has_value(), AskedWord::clearance_price) | said(!prices.areas.empty(), AskedWord::area) |
+      said(!prices.keep_out.empty(), AskedWord::keep_out) | said(prices.opens_unknown(), AskedWord::unknown) |
+      said(prices.unknown_factor() > 1.0, AskedWord::unknown_factor);
   for (const PriceMask& mask : prices.masks) {
-    add(mask.kind == MaskKind::areas, AskedWord::areas);
-    add(mask.kind == MaskKind::speed, AskedWord::speed_zones);
-    add(mask.kind == MaskKind::keep_out, mask.factor ? AskedWord::keep_out_factor : AskedWord::keep_out);
+    words = words | said(mask.kind == MaskKind::areas, AskedWord::areas) |
+            said(mask.kind == MaskKind::speed, AskedWord::speed_zones) |
+            said(mask.kind == MaskKind::keep_out, mask.factor ? AskedWord::keep_out_factor : AskedWord::keep_out);
   }
-  add(!prices.keep_out.empty(), AskedWord::keep_out);
-  add(prices.opens_unknown(), AskedWord::unknown);
-  add(prices.unknown_factor() > 1.0, AskedWord::unknown_factor);
   return words;
 }
 
 AskedWords words_in(const GoalRule& rule) {
-  AskedWords words;
-  if (!rule.others.empty()) words = words | AskedWords{AskedWord::goal};
-  if (rule.tolerance) words = words | AskedWords{AskedWord::goal_tolerance};
-  if (rule.region) words = words | AskedWords{AskedWord::goal_region};
-  if (rule.heading_rad) words = words | AskedWords{AskedWord::goal_heading};
-  if (!rule.visit.empty() || rule.back) words = words | AskedWords{AskedWord::visit};
-  return words;
+  return said(!rule.others.empty(), AskedWord::goal) | said(rule.tolerance.has_value(), AskedWord::goal_tolerance) |
+         said(rule.region.has_value(), AskedWord::goal_region) |
+         said(rule.heading_rad.has_value(), AskedWord::goal_heading) |
+         said(!rule.visit.empty() || rule.back, AskedWord::visit);
 }
 
 AskedWords words_in(const RouteRule& route) {
-  AskedWords words;
-  if (route.alternatives) words = words | AskedWords{AskedWord::alternatives};
-  if (!route.keep_to.empty()) words = words | AskedWords{AskedWord::keep_to};
-  return words;
+  return said(route.alternatives.has_value(), AskedWord::alternatives) |
+         said(!route.keep_to.empty(), AskedWord::keep_to);
 }
 
 PricedArea area_value(const std::string& where, std::string_view text) {
@@ -115,7 +103,7 @@ void check_prices(const Prices& prices) {
     check_area("area", area.corners);
   }
   for (const PriceMask& mask : prices.masks) check_mask(mask);
-  for (const KeepOut& area : prices.keep_out) check_area("keep_out", area.corners);
+  for (const ScenePolygon& area : prices.keep_out) check_area("keep_out", area.corners);
   if (prices.opens_unknown()) check_factor("unknown", prices.unknown);
 }
 

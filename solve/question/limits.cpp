@@ -9,19 +9,12 @@
 #include "parallel/ticker.hpp"
 
 namespace warren {
-namespace {
-
-double seconds_of(const Limits& limits) {
-  if (!limits.budget) return std::numeric_limits<double>::infinity();
-  const double seconds = std::chrono::duration<double>(*limits.budget).count();
-  if (!(seconds > 0.0)) throw UsageError("@budget: must be longer than nothing");
-  return seconds;
-}
-
-}  // namespace
 
 LimitedExecution::LimitedExecution(const Limits& limits)
-    : deadline_(seconds_of(limits), limits.memory.value_or(available_bytes()), limits.cancel) {
+    : deadline_(limits.budget ? std::chrono::duration<double>(*limits.budget).count()
+                              : std::numeric_limits<double>::infinity(),
+                limits.memory.value_or(available_bytes()), limits.cancel) {
+  if (limits.budget && limits.budget->count() <= 0) throw UsageError("@budget: must be longer than nothing");
   if (limits.threads > most_threads) {
     throw UsageError(fmt::format("@threads: must be at most {} (found: {})", most_threads, limits.threads));
   }

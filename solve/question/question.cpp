@@ -99,7 +99,7 @@ void add_prices(Prices& prices, const Prices& asked) {
     return a.kind == b.kind && a.file == b.file && a.factor == b.factor && a.base == b.base &&
            a.multiplier == b.multiplier;
   });
-  add(prices.keep_out, asked.keep_out, [](const KeepOut& a, const KeepOut& b) { return a.corners == b.corners; });
+  add(prices.keep_out, asked.keep_out, [](const auto& a, const auto& b) { return a.corners == b.corners; });
   if (asked.clearance) prices.clearance = asked.clearance;
   if (asked.unknown) prices.unknown = asked.unknown;
 }
@@ -158,7 +158,6 @@ std::optional<PathEnd> reached_goal(std::span<const double> end, const std::vect
 }
 
 void Question::validate() const {
-  const auto is_coordinate = [](double x) { return std::abs(x) <= largest_coordinate; };
   for (const auto& [name, state] : {std::pair{"start", &start}, std::pair{"goal", &goal}}) {
     if (std::ranges::all_of(*state, is_coordinate)) continue;
     throw UsageError(fmt::format("@{}: coordinates are numbers of at most 1e60", name));

@@ -3,6 +3,7 @@
 // makes with what the world's file says and the documented defaults.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -15,6 +16,9 @@
 #include "verify/judges/verify_point.hpp"
 
 namespace warren {
+
+/// Is it a number that coordinates may have: finite, of at most 1e60?
+inline bool is_coordinate(double x) { return std::abs(x) <= largest_coordinate; }
 
 /// What reaching the goal means. Points and discs; nothing said: to be at the goal.
 struct GoalRule {

@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "core/base/error.hpp"
+#include "solve/question/question.hpp"
 
 namespace warren {
 namespace {
@@ -36,7 +37,6 @@ struct OptionCheck {
     (*this)(option, {1, 10'000}, std::optional(attach->tries));
   }
   void operator()(Option, OptionRange, const std::vector<std::vector<double>>& via) const {
-    const auto is_coordinate = [](double x) { return std::abs(x) <= largest_coordinate; };
     for (const std::vector<double>& state : via) {
       const bool known = !state.empty() && state.size() <= most_joints;
       if (known && std::ranges::all_of(state, is_coordinate)) continue;

@@ -87,23 +87,36 @@ void column_pass(const Bitmap& blocked, bool outside_blocked, Range columns, std
   }
 }
 
-/// The lower envelope of a row's curves. Scratch of one thread's rows.
+/// Replaces the rows' column distances by squared distances: along the lower envelope of a row's curves.
 template <class Kind, class Int>
-class Envelope {
- public:
-  explicit Envelope(std::uint32_t width) : width_(as_whole<Int>(width)), pieces_(width + std::size_t{2}) {}
-
-  /// Replaces a row's column distances by squared distances.
-  void pass(std::uint32_t* row, bool outside_blocked) {
-    Piece* end = pieces_.data();
+void row_passes(Range rows, std::uint32_t columns, bool outside_blocked, std::uint32_t* distances) {
+  struct Piece {
+    Int site;
+    Int height;
+    Int first;  // the first x where this site is nearest
+  };
+  const auto width = as_whole<Int>(columns);
+  std::vector<Piece> pieces(columns + std::size_t{2});
+  Piece* const begin = pieces.data();
+  // With a site right of all others; the new end of the pieces.
+  const auto added = [begin, width](Int site, Int height, Piece* end) {
+    const auto at = [](const Piece& p, Int x) { return Kind::curve(std::abs(x - p.site)) + p.height; };
+    while (end != begin && at(end[-1], end[-1].first) > Kind::curve(std::abs(end[-1].first - site)) + height) --end;
+    const Int first = end == begin ? 0 : Kind::last_of_left(end[-1].site, site, height - end[-1].height) + 1;
+    if (first < width) *end++ = {site, height, first};
+    return end;
+  };
+  for (std::size_t y = rows.first; y < rows.last; ++y) {
+    std::uint32_t* const row = distances + y * columns;
+    Piece* end = begin;
     if (outside_blocked) end = added(-1, 0, end);
-    for (Int x = 0; x < width_; ++x) {
+    for (Int x = 0; x < width; ++x) {
       if (row[x] <= farthest) end = added(x, Kind::curve(as_whole<Int>(row[x])), end);
     }
-    if (outside_blocked) end = added(width_, 0, end);
-    if (end == pieces_.data()) return std::fill(row, row + width_, nothing);
-    Int last = width_;
-    while (end != pieces_.data()) {
+    if (outside_blocked) end = added(width, 0, end);
+    if (end == begin) std::fill(row, row + width, nothing);
+    Int last = width;
+    while (end != begin) {
       const auto [site, height, first] = *--end;
       for (Int x = first; x < last; ++x) {
         const std::int64_t squared = Kind::curve(std::abs(x - site)) + height;
@@ -112,28 +125,7 @@ class Envelope {
       last = first;
     }
   }
-
- private:
-  struct Piece {
-    Int site;
-    Int height;
-    Int first;  // the first x where this site is nearest
-  };
-
-  /// Adds a site right of all others; the new end of the pieces.
-  Piece* added(Int site, Int height, Piece* end) {
-    const auto at = [](const Piece& p, Int x) { return Kind::curve(std::abs(x - p.site)) + p.height; };
-    while (end != pieces_.data() && at(end[-1], end[-1].first) > Kind::curve(std::abs(end[-1].first - site)) + height) {
-      --end;
-    }
-    const Int first = end == pieces_.data() ? 0 : Kind::last_of_left(end[-1].site, site, height - end[-1].height) + 1;
-    if (first < width_) *end++ = {site, height, first};
-    return end;
-  }
-
-  Int width_;
-  std::vector<Piece> pieces_;
-};
+}
 
 struct CellBox {
   Cell begin;
@@ -143,13 +135,6 @@ struct CellBox {
 CellBox grown(const CellBox& box, std::uint32_t by, const CellBox& all) {
   return {{box.begin.x - std::min(by, box.begin.x), box.begin.y - std::min(by, box.begin.y)},
           {std::min(all.end.x, box.end.x + by), std::min(all.end.y, box.end.y + by)}};
-}
-
-/// Rows of a field of columns' distances.
-template <class Kind, class Int>
-void row_passes(Range rows, std::uint32_t width, bool outside_blocked, std::uint32_t* distances) {
-  Envelope<Kind, Int> envelope(width);
-  for (std::size_t y = rows.first; y < rows.last; ++y) envelope.pass(distances + y * width, outside_blocked);
 }
 
 }  // namespace

@@ -58,11 +58,15 @@ class BoxTree {
     std::size_t top = 0;
     stack[top++] = {0, gap_square(nodes_[0].box, from)};
     while (top > 0) {
-      const Entry entry = stack[--top];
-      if (entry.gap > limit) continue;
-      const std::uint32_t leaf = descend(entry.node, from, limit, stack, top);
-      if (leaf == none) continue;
-      const Node& node = nodes_[leaf];
+      Entry at = stack[--top];
+      while (!(at.gap > limit) && nodes_[at.node].count == 0) {
+        Entry far{nodes_[at.node].first, gap_square(nodes_[nodes_[at.node].first].box, from)};
+        at = {at.node + 1, gap_square(nodes_[at.node + 1].box, from)};
+        if (far.gap < at.gap) std::swap(at, far);
+        if (far.gap <= limit) stack[top++] = far;
+      }
+      if (at.gap > limit) continue;
+      const Node& node = nodes_[at.node];
       for (std::uint32_t place = node.first; place < node.first + node.count; ++place) {
         if (gap_square(boxes_[place], from) > limit) continue;
         within = visit(place);
@@ -74,7 +78,6 @@ class BoxTree {
 
  private:
   static constexpr std::size_t deepest = 64;
-  static constexpr std::uint32_t none = 0xffffffffU;
 
   /// An inner node has count 0, its left child behind it and its right child at `first`; a leaf has its places.
   struct Node {
@@ -89,19 +92,6 @@ class BoxTree {
 
   static double square(double distance) { return distance * distance; }
 
-  /// Goes down to the nearest leaf, remembering the other children; none if all are too far.
-  std::uint32_t descend(std::uint32_t node, const BoxOf<D>& from, double limit, std::array<Entry, deepest>& stack,
-                        std::size_t& top) const {
-    while (nodes_[node].count == 0) {
-      Entry near{node + 1, gap_square(nodes_[node + 1].box, from)};
-      Entry far{nodes_[node].first, gap_square(nodes_[nodes_[node].first].box, from)};
-      if (far.gap < near.gap) std::swap(near, far);
-      if (near.gap > limit) return none;
-      if (far.gap <= limit) stack[top++] = far;
-      node = near.node;
-    }
-    return node;
-  }
   struct Building;
   void build(std::uint32_t first, std::uint32_t last, Building& building);
 

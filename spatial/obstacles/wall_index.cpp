@@ -97,7 +97,7 @@ struct FiledWall {
 };
 
 /// One pass over the parts of n filed walls.
-template <class T, class Filed>
+template <class Filed>
 WallStatistics statistics_of(std::size_t n, const Filed& filed, const Execution& execution) {
   constexpr std::size_t grain = std::size_t{1} << 16;
   const auto length_of = [](const Segment& s) { return std::max(std::abs(s.b.x - s.a.x), std::abs(s.b.y - s.a.y)); };
@@ -149,9 +149,30 @@ inline Segment clipped(const Segment& s, const Box& box) {
 template <class T>
 class WallGridBuilder {
  public:
-  WallGridBuilder(const WallStatistics& statistics, std::size_t slack, unsigned depth, const Execution& execution)
-      : slack_(slack), depth_(depth), execution_(execution) {
-    choose_cell(statistics);
+  /// Chooses the cell. depth: 0, or that of a finer grid.
+  WallGridBuilder(const WallStatistics& s, unsigned depth, const Execution& execution)
+      : depth_(depth), execution_(execution) {
+    const Box box = s.box.empty() ? Box{{}, {}} : s.box;
+    const double width = box.width();
+    const double height = box.height();
+    const double longest = std::max({width, height, 1e-90});
+    const double area = std::max(width, 1e-6 * longest) * std::max(height, 1e-6 * longest);
+    const auto n = static_cast<double>(std::max<std::size_t>(s.walls, 1));
+    const double slack = depth == 0 ? 65536.0 : 64.0;
+    double h = std::sqrt(area / n);
+    if (s.total_length > 0.0) h = std::min(h, area / s.total_length);
+    h = std::max({h, std::sqrt(area / (2 * n + slack)), s.total_length / (4 * n + slack), longest * 1e-9});
+    if (s.median_length >= h && s.median_length <= 2 * h) h = s.median_length * (1 + 1e-9);
+    rounding_ = 1e-15 * std::max({std::abs(box.min.x), std::abs(box.min.y), std::abs(box.max.x), std::abs(box.max.y)});
+    grid_.cell_ = h;
+    grid_.inverse_cell_ = 1.0 / h;
+    // Off the lines that walls lie on, so that equal walls fall into equal cells.
+    grid_.origin_ = {box.min.x - 0.43 * h, box.min.y - 0.43 * h};
+    grid_.cols_ = bounded_whole<std::uint32_t>(width / h + 0.43) + 1;
+    grid_.rows_ = bounded_whole<std::uint32_t>(height / h + 0.43) + 1;
+    const std::size_t cells = std::size_t{grid_.cols_} * grid_.rows_;
+    band_cells_ = as_whole<std::uint32_t>(std::max<std::size_t>(cells / 512 + 1, std::size_t{1} << 14));
+    bands_ = as_whole<std::uint32_t>((cells + band_cells_ - 1) / band_cells_);
   }
 
   /// filed(i) gives the i-th of n walls as FiledWall<T>.
@@ -205,8 +226,6 @@ class WallGridBuilder {
     return std::move(grid_);
   }
 
-  double cell() const { return grid_.cell_; }
-
  private:
   struct Staged {
     std::uint32_t cell;
@@ -216,29 +235,6 @@ class WallGridBuilder {
   static constexpr unsigned deepest = 16;
   static constexpr std::uint32_t crowded = 64;
 
-  void choose_cell(const WallStatistics& s) {
-    const Box box = s.box.empty() ? Box{{}, {}} : s.box;
-    const double width = box.width();
-    const double height = box.height();
-    const double longest = std::max({width, height, 1e-90});
-    const double area = std::max(width, 1e-6 * longest) * std::max(height, 1e-6 * longest);
-    const auto n = static_cast<double>(std::max<std::size_t>(s.walls, 1));
-    const auto slack = static_cast<double>(slack_);
-    double h = std::sqrt(area / n);
-    if (s.total_length > 0.0) h = std::min(h, area / s.total_length);
-    h = std::max({h, std::sqrt(area / (2 * n + slack)), s.total_length / (4 * n + slack), longest * 1e-9});
-    if (s.median_length >= h && s.median_length <= 2 * h) h = s.median_length * (1 + 1e-9);
-    rounding_ = 1e-15 * std::max({std::abs(box.min.x), std::abs(box.min.y), std::abs(box.max.x), std::abs(box.max.y)});
-    grid_.cell_ = h;
-    grid_.inverse_cell_ = 1.0 / h;
-    // Off the lines that walls lie on, so that equal walls fall into equal cells.
-    grid_.origin_ = {box.min.x - 0.43 * h, box.min.y - 0.43 * h};
-    grid_.cols_ = bounded_whole<std::uint32_t>(width / h + 0.43) + 1;
-    grid_.rows_ = bounded_whole<std::uint32_t>(height / h + 0.43) + 1;
-    const std::size_t cells = std::size_t{grid_.cols_} * grid_.rows_;
-    band_cells_ = as_whole<std::uint32_t>(std::max<std::size_t>(cells / 512 + 1, std::size_t{1} << 14));
-    bands_ = as_whole<std::uint32_t>((cells + band_cells_ - 1) / band_cells_);
-  }
   template <class F>
   void for_each_piece(const Segment& part, const F& f) const {
     const Vec2 along = part.b - part.a;
@@ -290,15 +286,14 @@ class WallGridBuilder {
     const Box region{low - reach, low + Vec2{grid_.cell_, grid_.cell_} + reach};
     const RawVector<WallOf<T>> walls(grid_.walls_.begin() + first, grid_.walls_.begin() + first + n);
     const auto filed = [&](std::size_t i) { return FiledWall<T>{walls[i], clipped(walls[i].segment(), region)}; };
-    WallGridBuilder finer(statistics_of<T>(n, filed, execution_), 64, depth_ + 1, execution_);
-    if (finer.cell() > grid_.cell_ / 4) return;  // long or equal walls: a finer grid would hold them all again
+    WallGridBuilder finer(statistics_of(n, filed, execution_), depth_ + 1, execution_);
+    if (finer.grid_.cell_ > grid_.cell_ / 4) return;  // long or equal walls: a finer grid would hold them all again
     if (grid_.child_of_.empty()) grid_.child_of_.assign(grid_.offsets_.size() - 1, WallGrid<T>::no_child);
     grid_.child_of_[cell] = as_whole<std::uint32_t>(grid_.children_.size());
     grid_.children_.push_back(finer.build(n, filed));
   }
 
   WallGrid<T> grid_;
-  std::size_t slack_;
   unsigned depth_;
   const Execution& execution_;
   std::uint32_t band_cells_ = 1;
@@ -392,9 +387,9 @@ WallIndex::WallIndex(const WallSet& walls, std::span<const Segment> more, const 
         const Segment s = i < given.size() ? given[i].segment() : more[i - given.size()];
         return FiledWall<U>{WallOf<U>::of(s.a.x, s.a.y, s.b.x, s.b.y), s};
       };
-      const WallStatistics statistics = statistics_of<U>(wall_count_, filed, execution);
+      const WallStatistics statistics = statistics_of(wall_count_, filed, execution);
       box_ = statistics.box;
-      grid_ = WallGridBuilder<U>(statistics, 65536, 0, execution).build(wall_count_, filed);
+      grid_ = WallGridBuilder<U>(statistics, 0, execution).build(wall_count_, filed);
     };
     if (std::is_same_v<T, float> && fits_float(more)) {
       build(float{});

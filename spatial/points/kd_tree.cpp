@@ -381,11 +381,11 @@ void KdTree<D>::nearest(const Point& p, std::size_t k, VertexId except, std::vec
 }
 
 template <int D>
-void KdTree<D>::visit_within(const Point& p, const SearchRadius& radius, const void* visit, Call call) const {
+void KdTree<D>::for_each_within(const Point& p, const SearchRadius& radius,
+                                FunctionRef<void(VertexId, double)> visit) const {
   if (forest_ == nullptr || radius.square() < 0.0) return;
   const double reach = std::sqrt(loose_square(radius.length()));
-  forest_->visit_within(forest_->query_at(p), radius.square(), reach,
-                        [&](VertexId id, double distance) { call(visit, id, distance); });
+  forest_->visit_within(forest_->query_at(p), radius.square(), reach, visit);
 }
 
 template class KdTree<2>;

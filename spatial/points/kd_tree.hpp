@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/function_ref.hpp"
 #include "parallel/chunks.hpp"
 #include "spatial/points/neighbour.hpp"
 
@@ -34,20 +35,13 @@ class KdTree : public NeighboursByVisits<KdTree<D>, D> {
   /// The k points nearest to p (fewer if there are not so many) but `except`, ascending by (distance, id).
   void nearest(const Point& p, std::size_t k, VertexId except, std::vector<Neighbour>& out) const;
   /// Calls visit(id, distance) for all points at a distance <= radius from p, in an order that depends on the points.
-  template <class Visit>
-  void for_each_within(const Point& p, const SearchRadius& radius, const Visit& visit) const {
-    visit_within(p, radius, &visit,
-                 [](const void* f, VertexId id, double d) { (*static_cast<const Visit*>(f))(id, d); });
-  }
+  void for_each_within(const Point& p, const SearchRadius& radius, FunctionRef<void(VertexId, double)> visit) const;
 
  private:
   struct Forest;
   struct Fell {
     void operator()(const Forest* forest) const noexcept;
   };
-  using Call = void (*)(const void*, VertexId, double);
-  void visit_within(const Point& p, const SearchRadius& radius, const void* visit, Call call) const;
-
   std::unique_ptr<const Forest, Fell> forest_;
 };
 

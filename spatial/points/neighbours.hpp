@@ -133,15 +133,6 @@ class Neighbours {
   void for_each_within(const Point& p, const SearchRadius& radius, const Visit& visit) const {
     with([&](const auto& index) { index.for_each_within(p, radius, visit); });
   }
-  /// Those of them with through + distance < labels[id], the labels of a search: visit may lower only those of ids that
-  /// it has been called with.
-  template <class Visit>
-  void for_each_relaxable(const Point& p, const SearchRadius& radius, double through, std::span<const double> labels,
-                          const Visit& visit) const {
-    for_each_within(p, radius, [&](VertexId id, double distance) {
-      if (through + distance < labels[id]) visit(id, distance);
-    });
-  }
   /// Calls visit(i, j) for each point i of the range, ascending, and all points j > i at a distance <= radius from it:
   /// over all points, each pair once.
   template <class Visit>

@@ -75,8 +75,7 @@ CellFrame::CellFrame(const Box& box, std::size_t count) {
 }
 
 Box bounding_box(std::span<const Vec2> positions, const Execution& execution) {
-  constexpr std::size_t grain = std::size_t{1} << 15;
-  const std::vector<Box> boxes = parts_of_chunks(positions.size(), grain, execution.quiet(), [&](Range range) {
+  const std::vector<Box> boxes = parts_of_chunks(positions.size(), grid_grain, execution.quiet(), [&](Range range) {
     return box_around(positions.subspan(range.first, range.size()));
   });
   Box all;
@@ -101,13 +100,8 @@ PointGrid::PointGrid(std::span<const Vec2> points, const Execution& execution) {
   } else {
     sort_points(points, execution);
   }
-  count_crowding(execution);
   for (std::size_t k = 0; k < first_reach_.size(); ++k) first_reach_[k] = first_reach(k);
-}
-
-void PointGrid::count_crowding(const Execution& execution) {
-  const std::size_t cells = frame_.cell_count();
-  const std::uint64_t sum = sum_of_chunks(cells, grid_grain, execution.quiet(), [&](Range range) {
+  const std::uint64_t sum = sum_of_chunks(frame_.cell_count(), grid_grain, execution.quiet(), [&](Range range) {
     std::uint64_t squares = 0;  // below 2^64, for n is below 2^32
     for (std::size_t cell = range.first; cell < range.last; ++cell) {
       const std::uint64_t count = begin_[cell + 1] - begin_[cell];

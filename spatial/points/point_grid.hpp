@@ -186,11 +186,29 @@ class PointGrid : public NeighboursByVisits<PointGrid, 2> {
   template <class Visit>
   void for_each_within(Vec2 p, const SearchRadius& radius, const Visit& visit) const {
     if (points_.empty() || radius.square() < 0.0) return;
-    const auto visit_place = [&](std::uint32_t place, double distance) { visit(id_at(place), distance); };
-    Gathering gathering(*this, p, radius.square(), visit_place);
-    for_each_run(window(p, radius.reach()),
-                 [&](std::uint32_t first, std::uint32_t last) { gathering.add(first, last); });
-    gathering.visit_all();
+    // Gathered run by run without a branch on their distance, and visited when there are many.
+    constexpr std::uint32_t room = 64;
+    std::array<std::uint32_t, room> places;
+    std::array<double, room> squares;
+    std::uint32_t count = 0;
+    const auto visit_all = [&] {
+      for (std::uint32_t i = 0; i < count; ++i) visit(id_at(places[i]), std::sqrt(squares[i]));
+      count = 0;
+    };
+    for_each_run(window(p, radius.reach()), [&, square = radius.square()](std::uint32_t first, std::uint32_t last) {
+      while (first < last) {
+        if (count + (last - first) > room) visit_all();
+        const std::uint32_t end = first + std::min(room, last - first);
+        for (; first < end; ++first) {
+          const Vec2 along = points_[first] - p;
+          const double sum = along.x * along.x + along.y * along.y;
+          places[count] = first;
+          squares[count] = sum;
+          count += as_whole<std::uint32_t>(sum <= square);
+        }
+      }
+    });
+    visit_all();
   }
   /// Calls visit(i, j) for each point i of the range, ascending, and all points j > i at a distance <= radius from it:
   /// over all points, each pair once. Ascending by j if in tile order, where it costs least: a few
@@ -238,43 +256,6 @@ class PointGrid : public NeighboursByVisits<PointGrid, 2> {
       for (std::uint32_t y = w.bottom; y <= w.top; ++y, row += width) run(row[left], row[right + 1]);
     }
   }
-
-  /// The points of a disc, gathered run by run without a branch on their distance and visited when there are many.
-  template <class Visit>
-  class Gathering {
-   public:
-    Gathering(const PointGrid& grid, Vec2 p, double square, const Visit& visit)
-        : grid_(grid), p_(p), square_(square), visit_(visit) {}
-
-    void add(std::uint32_t first, std::uint32_t last) {
-      while (first < last) {
-        if (count_ + (last - first) > room) visit_all();
-        const std::uint32_t end = first + std::min(room, last - first);
-        for (; first < end; ++first) {
-          const Vec2 along = grid_.points_[first] - p_;
-          const double sum = along.x * along.x + along.y * along.y;
-          place_[count_] = first;
-          sum_[count_] = sum;
-          count_ += as_whole<std::uint32_t>(sum <= square_);
-        }
-      }
-    }
-    void visit_all() {
-      for (std::uint32_t i = 0; i < count_; ++i) visit_(place_[i], std::sqrt(sum_[i]));
-      count_ = 0;
-    }
-
-   private:
-    static constexpr std::uint32_t room = 64;
-
-    const PointGrid& grid_;
-    Vec2 p_;
-    double square_;
-    const Visit& visit_;
-    std::uint32_t count_ = 0;
-    std::array<std::uint32_t, room> place_;
-    std::array<double, room> sum_;
-  };
 
   /// Some points of one cell or of a few, and all later ones that may be within reach of any of them.
   class CellCandidates {
@@ -349,7 +330,6 @@ class PointGrid : public NeighboursByVisits<PointGrid, 2> {
                          std::vector<Neighbour>& out) const;
 
   double first_reach(std::size_t k) const;
-  void count_crowding(const Execution& execution);
 
   CellFrame frame_;
   double crowding_ = 0.0;

@@ -258,12 +258,10 @@ TEST(RunBoth, CallsBothAndThrowsWhatOneThrows) {
 TEST(PlainChunks, VisitEachOnceAndHandOnWhatAChunkThrows) {
   for (const unsigned threads : thread_counts) {
     std::vector<int> visits(1000, 0);
-    int* const slots = visits.data();
-    detail::run_plain_chunks(visits.size(), threads, &slots,
-                             [](const void* body, std::size_t i) { ++(*static_cast<int* const*>(body))[i]; });
+    detail::run_plain_chunks(visits.size(), threads, [&](std::size_t i) { ++visits[i]; });
     EXPECT_EQ(std::count(visits.begin(), visits.end(), 1), 1000);
     const auto fail = [&] {
-      detail::run_plain_chunks(1000, threads, nullptr, [](const void*, std::size_t i) {
+      detail::run_plain_chunks(1000, threads, [](std::size_t i) {
         if (i == 17) throw std::out_of_range("seventeen");
       });
     };

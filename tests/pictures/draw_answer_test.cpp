@@ -29,7 +29,7 @@ Scene room_with_a_block() {
   return scene;
 }
 
-Drawing drawn(const Scene& scene, const SolveOptions& options) {
+Picture drawn(const Scene& scene, const SolveOptions& options) {
   ByProducts made;
   const Answer answer = solve(scene, {}, options, {}, &made);
   EXPECT_TRUE(answer.verified);
@@ -40,9 +40,9 @@ TEST(DrawAnswer, ShowsWhatEachPlannerOfThePlaneMade) {
   const Scene scene = room_with_a_block();
   EXPECT_EQ(ids_of(drawn(scene, {.planner = PlannerKind::cells}).layers), std::vector<std::string>{"cells"});
   EXPECT_EQ(ids_of(drawn(scene, {.planner = PlannerKind::voronoi}).layers), std::vector<std::string>{"medial_axis"});
-  const Drawing sampled = drawn(scene, {.planner = PlannerKind::visibility, .visibility = {.sampled_edges = 0.01}});
+  const Picture sampled = drawn(scene, {.planner = PlannerKind::visibility, .visibility = {.sampled_edges = 0.01}});
   EXPECT_EQ(ids_of(sampled.layers), (std::vector<std::string>{"visibility", "wrong_edges"}));
-  const Drawing roadmap = drawn(scene, {.planner = PlannerKind::prm});
+  const Picture roadmap = drawn(scene, {.planner = PlannerKind::prm});
   ASSERT_TRUE(roadmap.roadmap);
   EXPECT_GT(roadmap.roadmap->states.size(), 2U);
   EXPECT_TRUE(roadmap.layers.empty());
@@ -57,17 +57,17 @@ TEST(DrawAnswer, ShowsTheBodyAlongThePath) {
   scene.start.push_back(0.0);
   scene.goal.push_back(1.0);
   const std::vector<std::string> along_the_path{"sweep", "bodies", "body_start", "body_goal", "fronts"};
-  const Drawing trees = drawn(scene, {.planner = PlannerKind::rrt_connect});
+  const Picture trees = drawn(scene, {.planner = PlannerKind::rrt_connect});
   EXPECT_EQ(ids_of(trees.layers), along_the_path);
   EXPECT_TRUE(trees.roadmap);
   EXPECT_TRUE(trees.path_turns.empty());
-  const Drawing grid = drawn(scene, {.planner = PlannerKind::grid, .grid = {.cell = 0.5, .angles = 8}});
+  const Picture grid = drawn(scene, {.planner = PlannerKind::grid, .grid = {.cell = 0.5, .angles = 8}});
   EXPECT_EQ(ids_of(grid.layers), along_the_path);
   ASSERT_EQ(grid.pages.size(), 3U) << "0, 45 and 90 degrees";
   EXPECT_EQ(grid.pages[1].id, "layer_45");
   EXPECT_EQ(ids_of(grid.pages[1].layers), (std::vector<std::string>{"layer_45", "headings"}));
   scene.goal.back() = 0.0;
-  const Drawing fixed = drawn(scene, {.planner = PlannerKind::cells});
+  const Picture fixed = drawn(scene, {.planner = PlannerKind::cells});
   EXPECT_EQ(ids_of(fixed.layers),
             (std::vector<std::string>{"cells", "blocked", "sweep", "bodies", "body_start", "body_goal", "fronts"}));
 }
@@ -102,7 +102,7 @@ TEST(DrawAnswer, TellsUnknownCellsOfAMapFromOccupiedOnes) {
   Scene scene = room_in_the_unknown(0);
   scene.start = {10.0, 4.0};
   scene.goal = {12.0, 6.0};
-  const Drawing drawing = drawn(scene, {});
+  const Picture drawing = drawn(scene, {});
   ASSERT_EQ(ids_of(drawing.layers), (std::vector<std::string>{"occupied", "unknown"}));
   EXPECT_EQ(drawing.layers[0].label, "occupied cells");
   EXPECT_EQ(drawing.layers[1].label, "unknown cells");
@@ -118,13 +118,13 @@ TEST(DrawAnswer, CutsAMapToWhatIsKnownAndSaysSoAtTheAxes) {
   Scene scene = room_in_the_unknown(0);
   scene.start = {10.0, 4.0};
   scene.goal = {12.0, 6.0};
-  const Drawing drawing = drawn(scene, {});
+  const Picture drawing = drawn(scene, {});
   std::string svg;
-  write_svg(picture_of(scene, drawing), {}, {}, [&](std::string_view bytes) { svg += bytes; });
+  write_svg(drawing, {}, {}, [&](std::string_view bytes) { svg += bytes; });
   EXPECT_NE(svg.find(">x (m), part of -1 to 19: the rest is unknown<"), std::string::npos);
   EXPECT_NE(svg.find(">y (m), part of 0 to 10: the rest is unknown<"), std::string::npos);
   // Two cells around columns 20 to 30 and rows 6 to 14; what is drawn of the unknown ends there.
-  const Canvas canvas = canvas_of(picture_of(scene, drawing), {});
+  const Canvas canvas = canvas_of(drawing, {});
   EXPECT_EQ(canvas.box.min, (Vec2{8.0, 2.0}));
   EXPECT_EQ(canvas.box.max, (Vec2{15.0, 8.0}));
   const std::size_t at = svg.find("id=\"unknown\"");
@@ -141,7 +141,7 @@ TEST(DrawAnswer, DrawsCarsInCurves) {
   scene.robot->turning_radius = 0.7;
   scene.start.push_back(0.0);
   scene.goal.push_back(1.0);
-  const Drawing drawing = drawn(scene, {});
+  const Picture drawing = drawn(scene, {});
   EXPECT_EQ(ids_of(drawing.layers),
             (std::vector<std::string>{"edges", "search_tree", "sweep", "body_start", "body_goal", "fronts"}));
   EXPECT_EQ(drawing.path_turns.size(), drawing.path.size());
@@ -155,7 +155,7 @@ TEST(DrawAnswer, ShowsAnArmFromThreeSidesAndInPerspective) {
   scene.robot = RobotSpec{.kind = RobotKind::puma560, .radius = 0.05};
   scene.start = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
   scene.goal = {0.3, -0.2, -0.3, 0.0, 0.2, 0.0};
-  const Drawing drawing = drawn(scene, {});
+  const Picture drawing = drawn(scene, {});
   ASSERT_TRUE(drawing.stage);
   EXPECT_EQ(drawing.stage->polygons.size(), 3U);
   EXPECT_EQ(drawing.panels.size(), 4U);
@@ -174,7 +174,7 @@ TEST(DrawAnswer, ShowsAnArmFromThreeSidesAndInPerspective) {
   EXPECT_EQ(ids_of(drawing.layers), (std::vector<std::string>{"sweep", "arm_at_start", "arm_at_goal", "trace"}));
   RecordedAnswer none;
   EXPECT_EQ(drawing_of(scene, none, {}).layers.size(), 1U) << "one posture: no goal, no way";
-  Drawing still = drawing_of(scene, none, {});
+  Picture still = drawing_of(scene, none, {});
   animate(still);
   EXPECT_EQ(still.arm->moments.size(), 1U) << "nothing to move along";
 }
@@ -185,22 +185,25 @@ TEST(DrawAnswer, ARefutedPathIsDrawnAsAnyOther) {
   answer.planner = "visibility";
   answer.refuted.emplace();
   answer.refuted->path = {{1, 5}, {9, 5}};
-  const Drawing drawing = drawing_of(scene, answer, {}, {});
+  const Picture drawing = drawing_of(scene, answer, {}, {});
   EXPECT_EQ(drawing.path.size(), 2U);
   EXPECT_FALSE(drawing.roadmap);
 }
 
 TEST(DrawAnswer, APictureIsTheWorldsOrTheStages) {
   const Scene scene = room_with_a_block();
-  Drawing drawing = drawing_of(scene, RecordedAnswer{}, {});
-  EXPECT_EQ(&picture_of(scene, drawing).scene, &scene);
-  EXPECT_EQ(picture_of(scene, drawing).start, (Vec2{1, 5})) << "the file's, where the answer says nothing";
-  drawing.stage.emplace();
-  EXPECT_EQ(&picture_of(scene, drawing).scene, &*drawing.stage);
+  const Picture drawing = drawing_of(scene, RecordedAnswer{}, {});
+  EXPECT_EQ(&drawing.scene, &scene);
+  EXPECT_EQ(drawing.start, (Vec2{1, 5})) << "the file's, where the answer says nothing";
+  Scene arm;
+  arm.robot = RobotSpec{.kind = RobotKind::puma560, .radius = 0.05};
+  arm.start = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  const Picture views = drawing_of(arm, RecordedAnswer{}, {});
+  EXPECT_EQ(&views.scene, views.stage.get());
 }
 
 /// An answer with two paths before it, and what a planner that gets better would have kept.
-Drawing drawn_with_improvements(const Scene& scene, Answer answer) {
+Picture drawn_with_improvements(const Scene& scene, Answer answer) {
   answer.planner = name_of(PlannerKind::anytime);
   answer.iterations = 7;
   answer.improvements = {{.iterations = 1, .cost = 14.5, .length = 14.5, .by = "tree"},
@@ -215,7 +218,7 @@ Drawing drawn_with_improvements(const Scene& scene, Answer answer) {
 TEST(DrawAnswer, PathsBeforeFadeAndTheEllipseHoldsWhatIsShorter) {
   const Scene scene = room_with_a_block();
   const Answer answer = solve(scene, {}, {.planner = PlannerKind::visibility});
-  const Drawing drawing = drawn_with_improvements(scene, answer);
+  const Picture drawing = drawn_with_improvements(scene, answer);
   ASSERT_EQ(ids_of(drawing.layers), (std::vector<std::string>{"informed_set", "improvements"}));
   const PictureLayer& ellipse = drawing.layers[0];
   ASSERT_FALSE(ellipse.lines.empty());

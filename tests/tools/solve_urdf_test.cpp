@@ -136,6 +136,17 @@ TEST_F(SolveUrdf, AJointWithoutEndGoesTheShorterWay) {
 }
 
 /// The first goal is farther than the way to the second. Of one joint and of two.
+TEST_F(SolveUrdf, StatesOfFewJointsAreNoPlaces) {
+  const std::string robot = folder_.write(
+      "rail.urdf",
+      R"(<robot name="r"><link name="b"/><link name="t"><collision><geometry><sphere radius="0.05"/></geometry></collision></link>)"
+      R"(<joint name="x" type="prismatic"><parent link="b"/><child link="t"/><axis xyz="1 0 0"/><limit lower="-5" upper="5"/></joint></robot>)");
+  file_ = folder_.write("rail.scene", "robot urdf " + robot + "\nsphere 0 2 0 1\nstart -2\ngoal 2\n");
+  const Json narrowest = solved({"--explain"})["explained"]["narrowest"];
+  EXPECT_NEAR(narrowest["clearance"], 0.95, 1e-3);
+  EXPECT_TRUE(narrowest["place"].is_null()) << narrowest;
+}
+
 TEST_F(SolveUrdf, SeveralNamedGoalsAreBoundedAndToldTogether) {
   const std::string slides =
       R"(<robot name="r"><link name="b"/><link name="s"/><link name="t"><collision><geometry><sphere radius="0.05"/></geometry></collision></link>)"

@@ -88,8 +88,13 @@ struct NamedFile {
 
 std::string name_in_folder(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
-std::optional<Place> place_of(const std::string& path) {
+/// Of "-" the file that standard input or output is redirected to; a pipe or terminal may well be both.
+std::optional<Place> place_of(const std::string& path, int standard) {
   struct stat status {};
+  if (path == "-") {
+    if (::fstat(standard, &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
+    return Place{status.st_dev, status.st_ino, {}};
+  }
   if (::stat(path.c_str(), &status) == 0) {
     // Nothing is lost on a device; folders are refused elsewhere.
     if (S_ISCHR(status.st_mode) || S_ISDIR(status.st_mode)) return std::nullopt;
@@ -98,24 +103,6 @@ std::optional<Place> place_of(const std::string& path) {
   const std::string real = behind_links(path);
   if (::stat(folder_of(real).c_str(), &status) != 0) return std::nullopt;
   return Place{status.st_dev, status.st_ino, name_in_folder(real)};
-}
-
-/// The file that standard input or output is redirected to; a pipe or terminal may well be both.
-std::optional<Place> place_of_descriptor(int descriptor) {
-  struct stat status {};
-  if (::fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
-  return Place{status.st_dev, status.st_ino, {}};
-}
-
-std::optional<Place> place_of_output(const std::string& path) {
-  return path == "-" ? place_of_descriptor(STDOUT_FILENO) : place_of(path);
-}
-
-/// What is not there can't be overwritten.
-std::optional<Place> place_of_input(const std::string& path) {
-  if (path == "-") return place_of_descriptor(STDIN_FILENO);
-  const std::optional<Place> place = is_made_source(path) ? std::nullopt : place_of(path);
-  return place && place->name.empty() ? place : std::nullopt;
 }
 
 std::vector<NamedFile> outputs_of(const Arguments& arguments) {
@@ -242,9 +229,9 @@ void check_outputs(const Arguments& arguments) {
   std::vector<NamedFile> files = outputs_of(arguments);
   check_standard_stream(files, "standard output takes one of them: {} or {}");
   for (std::size_t i = 0; i < files.size(); ++i) {
-    const auto place = place_of_output(files[i].path);
+    const auto place = place_of(files[i].path, STDOUT_FILENO);
     for (std::size_t j = 0; place && j < i; ++j) {
-      if (place_of_output(files[j].path) == place) {
+      if (place_of(files[j].path, STDOUT_FILENO) == place) {
         throw UsageError(fmt::format("{} and {} would both write {}", files[j].option, files[i].option, files[i].path));
       }
     }
@@ -274,10 +261,11 @@ bool takes_standard_output(const Arguments& arguments) {
 }
 
 void check_not_written(const Arguments& arguments, const std::string& input) {
-  const auto place = input.empty() ? std::nullopt : place_of_input(input);
-  if (!place) return;
+  const bool is_file = !input.empty() && !is_made_source(input);
+  const auto place = is_file ? place_of(input, STDIN_FILENO) : std::nullopt;
+  if (!place || !place->name.empty()) return;  // what is not there can't be overwritten
   for (const NamedFile& output : outputs_of(arguments)) {
-    if (place_of_output(output.path) == place) {
+    if (place_of(output.path, STDOUT_FILENO) == place) {
       throw UsageError(fmt::format("{}: {} would overwrite {}, which is read", output.option, output.path, input));
     }
   }

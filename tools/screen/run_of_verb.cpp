@@ -250,7 +250,8 @@ void Run::note(std::string_view line) const {
   say_on_standard_error(fmt::format("{}{}\n", resolved(mode_) == ProgressMode::bar ? "\r\x1b[K" : "", printable(line)));
 }
 
-void Run::conclude(const std::function<std::string()>& summary, std::optional<StopReason> stopped) const {
+void Run::conclude(const std::function<std::string()>& summary, std::optional<StopReason> stopped) {
+  end();
   if (!quiet_ && !standard_output_taken_) return print_text(summary());
   if (stopped) fmt::print(stderr, "warren: stopped: {}\n", stop_text(*stopped, deadline_.wanted_bytes()));
 }

@@ -111,9 +111,9 @@ class Run : NotCopied {
   }
   /// Says one line on standard error, above the bar; nothing with --quiet or --progress none.
   void note(std::string_view line) const;
-  /// Prints the summary; where --quiet or an output on standard output forbids that, says on standard error what
-  /// stopped the verb, if anything did.
-  void conclude(const std::function<std::string()>& summary, std::optional<StopReason> stopped = {}) const;
+  /// Ends the run and prints the summary; where --quiet or an output on standard output forbids that, says on standard
+  /// error what stopped the verb, if anything did.
+  void conclude(const std::function<std::string()>& summary, std::optional<StopReason> stopped = {});
   /// Where the answer is there in time and what came after it was stopped: for writing it, which a further signal or
   /// the memory alone ends; else execution().
   /// Or where the answer used its time by its nature.

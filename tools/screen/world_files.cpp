@@ -179,8 +179,7 @@ std::vector<std::string> write_world(const Scene& scene, const std::string& file
     return {};
   }
   if (scene.robot && is_arm(*scene.robot)) {
-    const Drawing drawn = drawing_of(scene, RecordedAnswer{}, execution, options.heading);
-    Picture picture = picture_of(scene, drawn);
+    Picture picture = drawing_of(scene, RecordedAnswer{}, execution, options.heading);
     picture.description = command_line;
     return write_picture(file, picture, options, execution);
   }
@@ -188,10 +187,8 @@ std::vector<std::string> write_world(const Scene& scene, const std::string& file
   picture.title = title_of(scene);
   picture.subtitle = description_of(scene);
   picture.description = command_line;
-  Drawing drawing;
-  if (scene.map) drawing.layers = cells_of_map(*scene.map, execution);
-  if (options.heading) add_heading_of_world(drawing, scene, *options.heading, execution);
-  picture.layers = drawing.layers;
+  if (scene.map) picture.layers = cells_of_map(*scene.map, execution);
+  if (options.heading) add_heading_of_world(picture, scene, *options.heading, execution);
   return write_picture(file, picture, options, execution);
 }
 

@@ -180,9 +180,8 @@ void AnswerCommand::draw(const Execution& execution) {
   const StageTimer timer(execution, "draw", nullptr);
   Scene scene = scene_drawn(execution, by_products_);
   add_map_walls(scene, execution);
-  const Drawing drawing = drawing_of(scene, answer_, std::move(by_products_), execution, picture_options_.heading);
-  Picture picture = picture_of(scene, drawing);
-  picture.description = fmt::format("{}\n{}", drawing.subtitle, arguments_.command_line());
+  Picture picture = drawing_of(scene, answer_, std::move(by_products_), execution, picture_options_.heading);
+  picture.description = fmt::format("{}\n{}", picture.subtitle, arguments_.command_line());
   drawn_otherwise_ = write_picture(svg_, picture, picture_options_, execution);
 }
 

@@ -71,7 +71,6 @@ int build_roadmap_file(const Arguments& arguments) {
   const Roadmap roadmap = build_within(std::move(scene), question, options, run.execution(), index);
   const EdgeCounts edges = count_edges(roadmap, run.execution());
   write_roadmap(roadmap, *file, run.execution(), !arguments.has("--no-world"));
-  run.end();
   run.conclude([&] {
     return fmt::format("{}: {}, {} states, {} edges free, {} blocked, {} unchecked\n", run.palette().strong(*file),
                        description_of(roadmap.world.outline()), grouped(count_states(roadmap)), grouped(edges.free),
@@ -110,7 +109,6 @@ int update_roadmap(const Arguments& arguments) {
   write_roadmap(next, *file, run.execution());
   if (told) told->commit();
   first.keep();
-  run.end();
   run.conclude([&] {
     return fmt::format("{}: {}, {} edges, {} checked; {} states new, {} gone\n", run.palette().strong(*file),
                        account.built_anew ? "built anew" : "changed", grouped(account.edges),

@@ -435,10 +435,7 @@ std::vector<OptionSpec> compare_option_specs() {
     spec.is_list = spec.value == "LIST";
   }
   specs = joined_options({specs, picture_option_specs(), passed_specs()});
-  for (const Option option : listed) {
-    const auto same = [&](const OptionSpec& spec) { return spec.name == option_flag(option); };
-    std::find_if(specs.begin(), specs.end(), same)->is_list = true;
-  }
+  for (const Option option : listed) std::ranges::find(specs, option_flag(option), &OptionSpec::name)->is_list = true;
   return specs;
 }
 

@@ -53,7 +53,6 @@ int write_simplified(Run& run, const std::string& source, const std::string& fil
   try {
     const auto [whole, few] = made();
     write_file(file, serve::nav2_graph_text(few, serve::ends_of(few), run.execution()), run.execution());
-    run.end();
     run.conclude([&, &whole = whole, &few = few] {
       return fmt::format("{}: {} of {} nodes, {} of {} edges\n", run.palette().strong(file), grouped(few.nodes.size()),
                          grouped(whole.nodes.size()), grouped(few.edges.size()), grouped(whole.edges.size()));
@@ -119,7 +118,6 @@ int convert(const Arguments& arguments) {
   Scene scene = load_world_alone(arguments.operand(0), arguments, run.execution(), "--simplify, or for ");
   const std::string note =
       run.in_stage("write", nullptr, [&] { return write_any(scene, *file, arguments, options, run.execution()); });
-  run.end();
   run.conclude([&] { return fmt::format("{}: {}\n", run.palette().strong(*file), description_of(scene)); });
   if (!run.quiet()) say_on_standard_error(note);
   return exit_code::success;
@@ -171,7 +169,6 @@ int export_roadmap_file(const Arguments& arguments) {
   Run run(arguments);
   const Roadmap roadmap = load_roadmap(arguments, run.execution());
   const ExportAccount account = export_of_roadmap(roadmap, *file, options, run.execution());
-  run.end();
   run.conclude([&] {
     return fmt::format("{}: {} vertices, {} edges; left out: {} unchecked, {} blocked\n", run.palette().strong(*file),
                        grouped(account.vertices), grouped(account.edges), grouped(account.unchecked_left_out),

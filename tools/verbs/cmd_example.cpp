@@ -21,8 +21,7 @@ constexpr OptionSpec example_specs[] = {{"--output", "FOLDER", "where to (defaul
 
 std::string_view bytes_of(std::string_view name) {
   if (name == "puma-seed.scene") name = "puma.scene";
-  const auto files = example_files();
-  return std::find_if(files.begin(), files.end(), [&](const EmbeddedFile& file) { return file.name == name; })->bytes;
+  return std::ranges::find(example_files(), name, &EmbeddedFile::name)->bytes;
 }
 
 std::vector<std::string_view> quoted(std::string_view text) {

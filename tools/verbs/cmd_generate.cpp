@@ -73,7 +73,6 @@ int generate_packed(const MazeOptions& options, bool merged, const std::string& 
     if (ending_of(file) == ".npy") return write_npy(WallStrips(maze, merged, execution), file, execution);
     write_maze_file(maze, file, execution);
   });
-  run.end();
   run.conclude([&] {
     return fmt::format("{}: {} x {} maze, generated and written in {}\n", run.palette().strong(file), options.rows,
                        options.cols, human_seconds(seconds));
@@ -110,7 +109,6 @@ int generate(const Arguments& arguments) {
     scene.bounds = bounds;
     return is_picture(ending) ? std::string() : note_of_left_out(scene, *file);
   });
-  run.end();
   run.conclude([&] {
     return fmt::format("{}: {}, generated in {}, written in {}\n", run.palette().strong(*file), description_of(scene),
                        human_seconds(seconds), human_seconds(write_seconds));

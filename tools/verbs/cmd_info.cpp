@@ -40,16 +40,6 @@ std::unique_ptr<RoadmapFile> opened_roadmap(const InputFile& file, const std::st
       new RoadmapFile(RoadmapFile::of_bytes(file.name(), file.bytes(), execution)));  // it can't be moved
 }
 
-/// What the roadmap says of itself; --check: after all of it was looked at.
-std::string roadmap_info(std::unique_ptr<RoadmapFile> file, bool check, const Execution& execution) {
-  std::string meta = roadmap_meta(*file, execution);
-  if (!check) return meta;
-  file->check_all(execution);
-  check_roadmap(*file, execution);
-  if (has_world(*file)) read_roadmap(std::move(file), execution).world.whole(execution);
-  return meta;
-}
-
 /// file: none of a world that is made. A .maze file whose walls are left out is asked for their number.
 std::vector<Fact> world_facts(const std::string& path, const std::optional<InputFile>& file, const Arguments& arguments,
                               const Execution& execution) {
@@ -82,7 +72,6 @@ std::vector<Fact> robot_facts(const InputFile& file, const Arguments& arguments,
 int info(const Arguments& arguments) {
   const auto json = output_file(arguments, "--json");
   const std::string& path = arguments.operand(0);
-  const bool check = arguments.has("--check");
   if (const auto what = arguments.value("--check"); what && *what != "all")
     throw UsageError(fmt::format("--check: takes `all` (found: '{}')", *what));
   Run run(arguments);
@@ -99,7 +88,12 @@ int info(const Arguments& arguments) {
   std::string text;
   std::string as_json;
   if (roadmap != nullptr) {
-    as_json = text = roadmap_info(std::move(roadmap), check, run.execution());
+    as_json = text = roadmap_meta(*roadmap, run.execution());
+    if (arguments.has("--check")) {
+      roadmap->check_all(run.execution());
+      check_roadmap(*roadmap, run.execution());
+      if (has_world(*roadmap)) read_roadmap(std::move(roadmap), run.execution()).world.whole(run.execution());
+    }
   } else {
     const std::vector<Fact> facts =
         is_robot ? robot_facts(*file, arguments, run.execution()) : world_facts(path, file, arguments, run.execution());

@@ -134,8 +134,7 @@ std::string profile_summary(const StageProfile& profile, const Palette& palette)
   return fmt::format("{}  {}, {}{}; {} on {}, medians\n{}{} {}\n", palette.strong(answer.world.source),
                      name_of(answer.outcome), answer.planner, answer.sampler.empty() ? "" : ", " + answer.sampler,
                      counted(profile.runs, "run", "runs"), counted(answer.threads, "thread", "threads"),
-                     table.rows.empty() ? "" : table.text(palette), palette.faint("machine"),
-                     studies::text_of(studies::this_machine()));
+                     table.rows.empty() ? "" : table.text(palette), palette.faint("machine"), studies::machine_text());
 }
 
 std::string profile_json(const StageProfile& profile) {
@@ -145,7 +144,7 @@ std::string profile_json(const StageProfile& profile) {
             {"planner", answer.planner},    {"sampler", answer.sampler},
             {"seed", answer.seed},          {"threads", answer.threads},
             {"runs", profile.runs}};
-  json["machine"] = studies::machine_json(studies::this_machine());
+  json["machine"] = studies::machine_json();
   json["solve"] = profile.runs > 0 ? json_of(profile.whole) : Json(nullptr);
   json["stages"] = Json::array();
   for (const ProfiledStage& stage : profile.stages) json["stages"].push_back(json_of(stage));

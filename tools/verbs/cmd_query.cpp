@@ -125,8 +125,7 @@ Command query_command() {
     if (option && asked_options.has(*option)) {
       command.options.push_back(spec);
     } else {
-      const auto refused = std::find_if(build.foreign.begin(), build.foreign.end(),
-                                        [&](const auto& option) { return option.first == spec.name; });
+      const auto refused = std::ranges::find(build.foreign, spec.name, [](const auto& each) { return each.first; });
       command.foreign.emplace_back(spec.name, refused != build.foreign.end() ? refused->second : fixed);
     }
   }

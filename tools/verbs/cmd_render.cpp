@@ -58,10 +58,9 @@ int render(const Arguments& arguments) {
   if (answer_file) check_plannable(scene, answer.problem);
   add_map_walls(scene, run.execution());
   if (answer_file) check_same_world(answer, *answer_file, scene, run.execution());
-  Drawing drawing = drawing_of(scene, answer, run.execution(), options.heading);
-  if (arguments.has("--animate")) animate(drawing);
-  Picture picture = picture_of(scene, drawing);
-  picture.description = fmt::format("{}\n{}", drawing.subtitle, arguments.command_line());
+  Picture picture = drawing_of(scene, answer, run.execution(), options.heading);
+  if (arguments.has("--animate")) animate(picture);
+  picture.description = fmt::format("{}\n{}", picture.subtitle, arguments.command_line());
   const std::vector<std::string> notes =
       run.in_stage("draw", nullptr, [&] { return write_picture(file, picture, options, run.execution()); });
   run.end();

@@ -367,9 +367,7 @@ Groups<OptionSpec> grouped_options(const Command& command) {
     for (const auto& [of, names] : option_groups) {
       if (option.group.empty() && is_among(option.name, names)) title = of;
     }
-    std::find_if(groups.begin(), groups.end(), [&](const auto& group) {
-      return group.first == title;
-    })->second.push_back(&option);
+    std::ranges::find(groups, title, [](const auto& group) { return group.first; })->second.push_back(&option);
   }
   std::erase_if(groups, [](const auto& group) { return group.second.empty(); });
   return groups;

@@ -196,21 +196,10 @@ namespace {
 /// Does the arc have a point in this direction from its centre?
 bool sweeps(const Arc& arc, Vec2 direction) {
   const Vec2 first = arc.from - arc.center;
-  double angle =
-      portable::atan2(first.x * direction.y - first.y * direction.x, first.x * direction.x + first.y * direction.y);
+  double angle = portable::atan2(cross(first, direction), dot(first, direction));
   if (arc.turn < 0.0) angle = -angle;
   if (angle < 0.0) angle += 2.0 * std::numbers::pi;
   return angle <= std::abs(arc.turn);
-}
-
-/// Does the segment cross the arc?
-bool crosses(const Arc& arc, const Segment& s, Vec2 along, double foot, double height_sq, double radius_sq) {
-  if (height_sq > radius_sq) return false;
-  const double half = std::sqrt((radius_sq - height_sq) / (along.x * along.x + along.y * along.y));
-  for (const double t : {foot - half, foot + half}) {
-    if (t >= 0.0 && t <= 1.0 && sweeps(arc, s.a + t * along - arc.center)) return true;
-  }
-  return false;
 }
 
 }  // namespace
@@ -236,7 +225,12 @@ double distance(const Arc& arc, const Segment& s) noexcept {
   const double foot = (to_center.x * along.x + to_center.y * along.y) / square;
   const double area = along.x * to_center.y - along.y * to_center.x;
   const double height = std::abs(area) / std::sqrt(square);
-  if (crosses(arc, s, along, foot, height * height, radius * radius)) return 0.0;
+  if (height * height <= radius * radius) {
+    const double half = std::sqrt((radius * radius - height * height) / square);
+    for (const double t : {foot - half, foot + half}) {  // where it meets the circle
+      if (t >= 0.0 && t <= 1.0 && sweeps(arc, s.a + t * along - arc.center)) return 0.0;
+    }
+  }
   if (foot > 0.0 && foot < 1.0 && height >= radius && sweeps(arc, s.a + foot * along - arc.center)) {
     least = std::min(least, height - radius);
   }

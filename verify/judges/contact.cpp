@@ -67,26 +67,17 @@ class Surroundings {
     if (beyond_is_left ? came : goes_on) block(outwards, last);
   }
 
-  /// The sides of the stretch at_ -> `to` that are not blocked.
-  unsigned open_sides(Vec2 to) {
+  /// The sides of the stretch at_ -> `to` that are not blocked: those that can be reached from `sides` of the stretch
+  /// `from` -> at_, where there is one.
+  unsigned passable(const std::optional<Vec2>& from, unsigned sides, Vec2 to) {
     sort();
     unsigned result = 0;
     for (const unsigned out : {left_side, right_side}) {
-      if (!blocked(sector(to, out == left_side))) result |= out;
-    }
-    return result;
-  }
-
-  /// Those of them that can be reached from `sides` of the stretch `from` -> at_.
-  unsigned passable(Vec2 from, unsigned sides, Vec2 to) {
-    const unsigned open = open_sides(to);
-    unsigned result = 0;
-    for (const unsigned out : {left_side, right_side}) {
-      if ((open & out) == 0) continue;
       const std::size_t target = sector(to, out == left_side);
+      if (blocked(target)) continue;
       // Looking back along the stretch that came in, its left side is clockwise of it.
-      if ((sides & left_side) != 0 && sector(from, false) == target) result |= out;
-      if ((sides & right_side) != 0 && sector(from, true) == target) result |= out;
+      const auto leads_on = [&](unsigned in) { return (sides & in) != 0 && sector(*from, in == right_side) == target; };
+      if (!from || leads_on(left_side) || leads_on(right_side)) result |= out;
     }
     return result;
   }
@@ -162,12 +153,10 @@ class LegContacts {
     along_x_ = std::abs(run.x) >= std::abs(run.y);
     forward_ = along_x_ ? leg.b.x > leg.a.x : leg.b.y > leg.a.y;
     for (const LegContact& c : contacts) add(obstacles.segment(c.obstacle), c.obstacle);
-    const auto by_place = [](const Event& e, const Event& f) { return e.place < f.place; };
-    std::sort(events_.begin(), events_.end(), by_place);
+    std::ranges::sort(events_, {}, &Event::place);
     const auto same = [](const Event& e, const Event& f) { return e.place == f.place; };
     events_.erase(std::unique(events_.begin(), events_.end(), same), events_.end());
-    std::sort(intervals_.begin(), intervals_.end(),
-              [](const Interval& i, const Interval& j) { return i.first < j.first; });
+    std::ranges::sort(intervals_, {}, &Interval::first);
   }
 
   std::size_t event_count() const { return events_.size(); }
@@ -263,11 +252,10 @@ class Walk {
         around.add(obstacles_, obstacle);
         if (obstacle < obstacles_.wall_count()) around.close_beyond(obstacles_.segment(obstacle), frame_);
       }
-      sides_ = begun_ ? around.passable(from_, sides_, to) : around.open_sides(to);
+      sides_ = around.passable(from_, sides_, to);
       if (sides_ == 0) return touching_.front();
     }
     from_ = at_;
-    begun_ = true;
     at_ = to;
     return std::nullopt;
   }
@@ -275,8 +263,7 @@ class Walk {
   const Box& frame_;
   const Obstacles& obstacles_;
   Vec2 at_;
-  Vec2 from_;           // where the stretch that led to at_ began
-  bool begun_ = false;  // is there such a stretch?
+  std::optional<Vec2> from_;  // where the stretch that led to at_ began, if there is one
   unsigned sides_ = both_sides;
   std::vector<std::size_t> touching_;  // obstacles at at_
 };

@@ -75,83 +75,69 @@ void blocked_runs(const PriceMask& mask, const Execution& execution, const Run& 
   }
 }
 
-/// The cells of a map that a polygon closes.
-class ClosedCells {
- public:
-  ClosedCells(OccupancyMap& map, const Execution& execution) : map_(map), execution_(execution) {}
+/// Does a side meet the open square? Their boxes do, and corners lie on both sides of it.
+bool passes(Vec2 a, Vec2 b, double x, double y) {
+  if (!(std::max(a.x, b.x) > x && std::min(a.x, b.x) < x + 1.0)) return false;
+  if (a == b) return true;
+  int least = 1;
+  int most = -1;
+  for (const Vec2 corner : Box{{x, y}, {x + 1.0, y + 1.0}}.corners()) {
+    const int side = exact::side_of(a, b, corner);
+    least = std::min(least, side);
+    most = std::max(most, side);
+  }
+  return least < 0 && most > 0;
+}
 
-  void close(std::span<const Vec2> corners) {
-    const double top = map_.height();
-    Box box;
-    for (const Vec2 p : corners) box.include(p);
-    const auto first = bounded_whole<std::uint32_t>(std::floor(box.min.y), 0.0, top);
-    const auto end = bounded_whole<std::uint32_t>(std::ceil(box.max.y), 0.0, top);
-    for (std::uint32_t row = first; row < end; ++row) {
-      execution_.check();
-      close_row(corners, row);
+/// Of one row of a map the cells that a side of the polygon passes through, and those whose middle is inside.
+void close_row(OccupancyMap& map, std::span<const Vec2> corners, std::uint32_t row, std::vector<Segment>& around) {
+  const double low = row;
+  const double width = map.width();
+  const auto close = [&](std::uint32_t x) {
+    map.blocked.set(x, row);
+    if (!map.water.empty()) map.water.clear(x, row);
+  };
+  around.clear();
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const auto [a, b] = exact::outline_side(corners, i);
+    if ((a.y <= low + 0.5) != (b.y <= low + 0.5)) around.push_back(a.y < b.y ? Segment{a, b} : Segment{b, a});
+    if (!(std::max(a.y, b.y) > low && std::min(a.y, b.y) < low + 1.0)) continue;
+    const auto from = bounded_whole<std::uint32_t>(std::floor(std::min(a.x, b.x)), 0.0, width);
+    const auto to = bounded_whole<std::uint32_t>(std::ceil(std::max(a.x, b.x)), 0.0, width);
+    for (std::uint32_t x = from; x < to; ++x) {
+      if (passes(a, b, x, low)) close(x);
     }
   }
-
- private:
-  void set(std::uint32_t x, std::uint32_t y) {
-    map_.blocked.set(x, y);
-    if (!map_.water.empty()) map_.water.clear(x, y);
+  if (around.empty()) return;
+  Box box;
+  for (const Segment& side : around) box.include(box_of(side));
+  const auto end = bounded_whole<std::uint32_t>(std::ceil(box.max.x), 0.0, width);
+  for (auto x = bounded_whole<std::uint32_t>(std::floor(box.min.x), 0.0, width); x < end; ++x) {
+    const auto left = std::count_if(around.begin(), around.end(), [&](const Segment& side) {
+      return exact::side_of(side.a, side.b, {x + 0.5, low + 0.5}) < 0;  // upwards: its right is beyond it
+    });
+    if (left % 2 == 1) close(x);
   }
-
-  /// Of one row: the cells that a side passes through, and those whose middle is inside.
-  void close_row(std::span<const Vec2> corners, std::uint32_t row) {
-    const double low = row;
-    const double width = map_.width();
-    around_.clear();
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      const auto [a, b] = exact::outline_side(corners, i);
-      if ((a.y <= low + 0.5) != (b.y <= low + 0.5)) around_.push_back(a.y < b.y ? Segment{a, b} : Segment{b, a});
-      if (!(std::max(a.y, b.y) > low && std::min(a.y, b.y) < low + 1.0)) continue;
-      const auto from = bounded_whole<std::uint32_t>(std::floor(std::min(a.x, b.x)), 0.0, width);
-      const auto to = bounded_whole<std::uint32_t>(std::ceil(std::max(a.x, b.x)), 0.0, width);
-      for (std::uint32_t x = from; x < to; ++x) {
-        if (passes(a, b, x, low)) set(x, row);
-      }
-    }
-    if (around_.empty()) return;
-    Box box;
-    for (const Segment& side : around_) box.include(box_of(side));
-    const auto end = bounded_whole<std::uint32_t>(std::ceil(box.max.x), 0.0, width);
-    for (auto x = bounded_whole<std::uint32_t>(std::floor(box.min.x), 0.0, width); x < end; ++x) {
-      const auto left = std::count_if(around_.begin(), around_.end(), [&](const Segment& side) {
-        return exact::side_of(side.a, side.b, {x + 0.5, low + 0.5}) < 0;  // upwards: its right is beyond it
-      });
-      if (left % 2 == 1) set(x, row);
-    }
-  }
-
-  /// Does a side meet the open square? Their boxes do, and corners lie on both sides of it.
-  static bool passes(Vec2 a, Vec2 b, double x, double y) {
-    if (!(std::max(a.x, b.x) > x && std::min(a.x, b.x) < x + 1.0)) return false;
-    if (a == b) return true;
-    int least = 1;
-    int most = -1;
-    for (const Vec2 corner : Box{{x, y}, {x + 1.0, y + 1.0}}.corners()) {
-      const int side = exact::side_of(a, b, corner);
-      least = std::min(least, side);
-      most = std::max(most, side);
-    }
-    return least < 0 && most > 0;
-  }
-
-  OccupancyMap& map_;
-  const Execution& execution_;
-  std::vector<Segment> around_;  // sides that pass the middle of the row, upwards
-};
+}
 
 void restrict_map(OccupancyMap& map, const Prices& prices, const Execution& execution) {
   if (prices.opens_unknown()) map.blocked.remove(map.unknown, [&] { execution.check(); });
-  ClosedCells closed(map, execution);
   std::vector<Vec2> corners;
-  for (const KeepOut& area : prices.keep_out) {
+  std::vector<Segment> around;  // sides that pass the middle of a row, upwards
+  const auto close = [&] {
+    Box box;
+    for (const Vec2 p : corners) box.include(p);
+    const auto first = bounded_whole<std::uint32_t>(std::floor(box.min.y), 0.0, map.height());
+    const auto end = bounded_whole<std::uint32_t>(std::ceil(box.max.y), 0.0, map.height());
+    for (std::uint32_t row = first; row < end; ++row) {
+      execution.check();
+      close_row(map, corners, row, around);
+    }
+  };
+  for (const ScenePolygon& area : prices.keep_out) {
     corners.clear();
     for (const Vec2 p : area.corners) corners.push_back(judged_corner(map, p));
-    closed.close(corners);
+    close();
   }
   for (const PriceMask& mask : prices.masks) {
     blocked_runs(mask, execution, [&](std::uint32_t row, std::uint32_t first, std::uint32_t end) {
@@ -160,14 +146,14 @@ void restrict_map(OccupancyMap& map, const Prices& prices, const Execution& exec
         for (const auto& [column, at] : {std::pair{x, row}, {x + 1, row}, {x + 1, row + 1}, {x, row + 1}}) {
           corners.push_back(judged_corner(map, mask_place(*mask.read, column, at)));
         }
-        closed.close(corners);
+        close();
       }
     });
   }
 }
 
 void restrict_plane(Scene& scene, const Prices& prices, const Execution& execution) {
-  for (const KeepOut& area : prices.keep_out) scene.polygons.push_back({area.corners, area.line});
+  for (const ScenePolygon& area : prices.keep_out) scene.polygons.push_back(area);
   for (const PriceMask& mask : prices.masks) {
     blocked_runs(mask, execution, [&](std::uint32_t row, std::uint32_t first, std::uint32_t end) {
       scene.polygons.push_back({{mask_place(*mask.read, first, row), mask_place(*mask.read, end, row),
@@ -289,12 +275,10 @@ double JudgedFactors::over(const Segment& leg) {
     const Vec2 from = in_mask(*mask->read, leg.a);
     add_grid_lines(from, (1.0 / ray.length) * (in_mask(*mask->read, leg.b) - from), ray.length, cuts_);
   }
-  double sum = 0.0;
-  for_pieces(cuts_, ray.length, execution_, [&](double from, double to) {
-    const double middle = 0.5 * (from + to);
-    sum += (to - from) * (factor(ray.at(middle), leg.a + (middle / ray.length) * (leg.b - leg.a)) - 1.0);
-  });
-  return sum * to_world;
+  return to_world * sum_of_pieces(cuts_, ray.length, execution_, [&](double from, double to) {
+           const double middle = 0.5 * (from + to);
+           return (to - from) * (factor(ray.at(middle), leg.a + (middle / ray.length) * (leg.b - leg.a)) - 1.0);
+         });
 }
 
 double JudgedFactors::over(const JudgedArc& arc) {
@@ -319,12 +303,10 @@ double JudgedFactors::over(const JudgedArc& arc) {
     add_grid_crossings(
         {in_mask(cells, arc.from), arc.heading_rad - cells.yaw_rad, arc.turn_rad, arc.length / cells.cell}, cuts_);
   }
-  double sum = 0.0;
-  for_pieces(cuts_, 1.0, execution_, [&](double from, double to) {
-    const Vec2 middle = arc.at(0.5 * (from + to));
-    sum += (to - from) * (factor(own(middle), middle) - 1.0);
-  });
-  return sum * std::abs(arc.length);
+  return std::abs(arc.length) * sum_of_pieces(cuts_, 1.0, execution_, [&](double from, double to) {
+           const Vec2 middle = arc.at(0.5 * (from + to));
+           return (to - from) * (factor(own(middle), middle) - 1.0);
+         });
 }
 
 /// In the open polygon, and not within `on_border` of its outline. By how often it is wound around the place.

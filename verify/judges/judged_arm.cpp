@@ -243,8 +243,7 @@ SolidCore core_of(const Solid& solid, SolidFrame& frame) {
 }
 
 SolidGap gap_between(const PlacedCore& a, const PlacedCore& b, double close, double enough) {
-  const bool from_a = is_spine(a.core) && b.core.kind != SolidKind::hull;
-  if (from_a) return written_gap(a, b);
+  if (is_spine(a.core) && b.core.kind != SolidKind::hull) return written_gap(a, b);
   if (!is_spine(b.core) || a.core.kind == SolidKind::hull) return searched_gap(a, b, close, enough);
   SolidGap gap = written_gap(b, a);
   gap.towards = -gap.towards;

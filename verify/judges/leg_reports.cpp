@@ -28,57 +28,32 @@
 namespace warren {
 namespace {
 
-/// What of a scene can be in a body's way.
-struct SceneParts {
-  bool walls, polygons, bounds, map, spheres, boxes, solids;
-
-  explicit SceneParts(const Scene& scene) {
-    // Every member by its name, so that one more in Scene does not compile before it is said here what it means.
-    const auto& [scene_walls, scene_polygons, seams, scene_spheres, scene_boxes, scene_solids, scene_bounds, clearance,
-                 maze, formula, packed, robot, arm, start, goal, other_goals, named_start, named_goals, goal_pose, grid,
-                 prices, scene_map, source] = scene;
-    walls = scene_walls.size() > 0;      // where they are left out there are none: judged by verify_among_cells alone
-    polygons = !scene_polygons.empty();  // the seams lie between them
-    bounds = scene_bounds.has_value();
-    map = scene_map.has_value();
-    spheres = !scene_spheres.empty();
-    boxes = !scene_boxes.empty();
-    solids = !scene_solids.empty();
-  }
-};
-
 [[noreturn]] void refuse(const Scene& scene, std::string_view what) {
   throw InputError(scene.source.empty() ? "world" : scene.source, what);
-}
-
-/// Is there a blocked cell on one side of the piece of the wall from (x, y) one cell further, or the rim of the map?
-bool borders_blocked(const OccupancyMap& map, std::int64_t x, std::int64_t y, bool level) {
-  const auto blocked = [&](std::int64_t column, std::int64_t row) {
-    if (column < 0 || row < 0 || column >= map.width() || row >= map.height()) return true;
-    return map.blocked.holds(column, row);
-  };
-  return blocked(x, y) || (level ? blocked(x, y - 1) : blocked(x - 1, y));
 }
 
 /// Does the wall run along sides of blocked cells, where a judge of the cells sees it?
 bool runs_along_blocked(const OccupancyMap& map, const Segment& wall) {
   const double most = 2.0 + std::max(map.width(), map.height());
-  std::int64_t ends[2][2];
-  int number = 0;
+  Box around;  // of both ends, in whole cells
   for (const Vec2 end : {wall.a, wall.b}) {
     const Vec2 p = map_point(map, end);
     const double rounding = 1e-6 + 4e-15 * (norm(end) + norm(map.origin)) / map.cell;  // cells
     if (!(std::abs(p.x) <= most && std::abs(p.y) <= most)) return false;
     if (std::abs(p.x - std::round(p.x)) > rounding || std::abs(p.y - std::round(p.y)) > rounding) return false;
-    ends[number][0] = bounded_whole<std::int64_t>(std::round(p.x));
-    ends[number++][1] = bounded_whole<std::int64_t>(std::round(p.y));
+    around.include(Vec2{std::round(p.x), std::round(p.y)});
   }
-  const bool level = ends[0][1] == ends[1][1];
-  if (!level && ends[0][0] != ends[1][0]) return false;
-  const int axis = level ? 0 : 1;
-  const auto [first, last] = std::minmax(ends[0][axis], ends[1][axis]);
-  for (std::int64_t i = first; i < last; ++i) {
-    if (!(level ? borders_blocked(map, i, ends[0][1], true) : borders_blocked(map, ends[0][0], i, false))) return false;
+  const bool level = around.height() == 0.0;
+  if (!level && around.width() > 0.0) return false;
+  const auto blocked = [&](std::int64_t x, std::int64_t y) {  // or beyond the map
+    return x < 0 || y < 0 || x >= map.width() || y >= map.height() || map.blocked.holds(x, y);
+  };
+  auto x = bounded_whole<std::int64_t>(around.min.x);
+  auto y = bounded_whole<std::int64_t>(around.min.y);
+  const auto length = bounded_whole<std::int64_t>(level ? around.width() : around.height());
+  for (std::int64_t i = 0; i < length; ++i) {  // cell by cell, on either side
+    if (!blocked(x, y) && !(level ? blocked(x, y - 1) : blocked(x - 1, y))) return false;
+    ++(level ? x : y);
   }
   return true;
 }
@@ -119,7 +94,9 @@ class AgainstBlocks {
     }
   }
   void compare_alone(const BoxedSegment& one) {
-    blocks_.for_each([&](const Box& box) { return skips(one, box); }, [&](std::size_t i) { with_(one, i); });
+    blocks_.for_each_block(
+        [&](const Box& box) { return skips(one, box); },
+        [&](std::size_t block) { blocks_.for_each_in(block, [&](std::size_t i) { with_(one, i); }); });
   }
 
  private:
@@ -154,8 +131,12 @@ class AgainstBlocks {
     for (std::size_t i = group.first; i < group.last; ++i) {
       if (near_.size() > most_near) {
         compare_alone(some_[i]);
-      } else {
-        compare_with_near(some_[i]);
+        continue;
+      }
+      const BoxedSegment& one = some_[i];
+      for (const std::size_t block : near_) {
+        if (skips(one, blocks_.block_box(block))) continue;
+        blocks_.for_each_in(block, [&](std::size_t k) { with_(one, k); });
       }
     }
   }
@@ -170,13 +151,6 @@ class AgainstBlocks {
     }
   }
 
-  void compare_with_near(const BoxedSegment& one) {
-    for (const std::size_t block : near_) {
-      if (skips(one, blocks_.block_box(block))) continue;
-      blocks_.for_each_in(block, [&](std::size_t i) { with_(one, i); });
-    }
-  }
-
   const Blocks& blocks_;
   const Comparison& comparison_;
   const Execution& execution_;
@@ -187,138 +161,89 @@ class AgainstBlocks {
   std::size_t looks_ = 0;
 };
 
-/// One comparison of all obstacles in progress.
-class ObstaclePass {
- public:
-  ObstaclePass(const Scene& scene, const Obstacles& obstacles, const LegBoxes& legs, const VerifyOptions& options,
-               const Execution& execution)
-      : scene_(scene), options_(options), execution_(execution), obstacles_(obstacles), legs_(legs) {}
-
-  Tally run() {
-    if (obstacles_.size() == 0) return {};
-    const double bound = least_of_some();
-    // What the screen drops is as far as it is told from a leg; between the two, only a leg almost along an axis may be
-    // taken to be nearer than it is.
-    const double far = legs_.has_skew() ? bound * (1.0 + 4.0 * exact::distance_error) : bound;
-    PathScreen screen(legs_, {obstacles_.size(), typical_wall(), std::max(far, options_.reach())}, execution_);
-    screen.set_reach(far, options_.reach());
-    const PathScreen::Rest rest = screened(screen);
-    Tally tally = tally_of(rest.doubtful.size(), small_grain, bound, [&](std::size_t i) { return rest.doubtful[i]; });
-    tally.box = rest.box;
-    tally.least = std::min(tally.least, bound);
-    return tally;
+/// The extent of the middle one of some walls.
+double typical_wall(const WallSet& walls) {
+  constexpr std::size_t most = 255;
+  const std::size_t step = std::max<std::size_t>(1, walls.size() / most);
+  std::vector<double> extents;
+  for (std::size_t i = 0; i < walls.size(); i += step) {
+    const Box box = box_of(walls.segment(i));
+    extents.push_back(std::max(box.width(), box.height()));
   }
+  if (extents.empty()) return 0.0;
+  const auto middle = extents.begin() + as_whole<std::ptrdiff_t>(extents.size() / 2);
+  std::nth_element(extents.begin(), middle, extents.end());
+  return *middle;
+}
 
- private:
-  /// Of the obstacles of numbers number(0) .. number(count - 1), in chunks of `size`.
-  template <class Number>
-  Tally tally_of(std::size_t count, std::size_t size, double at_most, const Number& number) const {
-    const auto obstacle = [&](std::size_t i) { return BoxedSegment(obstacles_.segment(number(i)), number(i)); };
-    return tally_chunks(count, size, options_, at_most, execution_, [&](Range r, Comparison& comparison) {
-      const auto with_leg = [&](const BoxedSegment& one, std::size_t leg) {
-        comparison.with_leg({legs_.leg(leg), leg}, one);
-      };
-      AgainstBlocks(legs_, comparison, execution_, with_leg).compare(r, obstacle);
-    });
+/// What the screen leaves of walls_in(range); numbers count from `first_number`.
+template <class WallsIn>
+PathScreen::Rest screened(const PathScreen& screen, std::size_t count, std::size_t first_number,
+                          const Execution& execution, const WallsIn& walls_in) {
+  const auto rest_of = [&](Range r) {
+    PathScreen::Rest rest;
+    const auto& walls = walls_in(r);
+    screen.sift(std::span(walls), first_number + r.first, rest);
+    return rest;
+  };
+  PathScreen::Rest all;
+  for (const PathScreen::Rest& part : parts_of_chunks(count, verify_grain, execution, rest_of)) {
+    all.doubtful.insert(all.doubtful.end(), part.doubtful.begin(), part.doubtful.end());
+    all.box.include(part.box);
   }
+  return all;
+}
 
-  /// The extent of the middle one of some walls.
-  double typical_wall() const {
-    constexpr std::size_t most = 255;
-    const std::size_t step = std::max<std::size_t>(1, scene_.walls.size() / most);
-    std::vector<double> extents;
-    for (std::size_t i = 0; i < scene_.walls.size(); i += step) {
-      const Box box = box_of(scene_.walls.segment(i));
-      extents.push_back(std::max(box.width(), box.height()));
+/// What it leaves of all obstacles; the box is that of walls and polygons.
+PathScreen::Rest screened(const PathScreen& screen, const WallSet& all_walls, const Obstacles& obstacles,
+                          const Execution& execution) {
+  PathScreen::Rest all = all_walls.visit([&](auto walls) {
+    return screened(screen, walls.size(), 0, execution, [walls](Range r) { return walls.subspan(r.first, r.size()); });
+  });
+  const auto sides_in = [&](Range r) {
+    std::vector<DoubleWall> sides(r.size());
+    for (std::size_t i = r.first; i < r.last; ++i) {
+      const auto [a, b] = obstacles.side_segment(i);
+      sides[i - r.first] = {a.x, a.y, b.x, b.y};
     }
-    if (extents.empty()) return 0.0;
-    const auto middle = extents.begin() + as_whole<std::ptrdiff_t>(extents.size() / 2);
-    std::nth_element(extents.begin(), middle, extents.end());
-    return *middle;
+    return sides;
+  };
+  const PathScreen::Rest sides =
+      screened(screen, obstacles.sides().size(), obstacles.wall_count(), execution, sides_in);
+  all.doubtful.insert(all.doubtful.end(), sides.doubtful.begin(), sides.doubtful.end());
+  for (const Ring& ring : obstacles.rings()) {
+    if (ring.polygon != Ring::none) all.box.include(ring.box);  // the bounds are no obstacle in this sense
   }
-
-  /// A distance from the path that some obstacle has: nothing beyond it matters for the least one. Asked are runs in a
-  /// row, a 64th of a few obstacles, a 1024th of many.
-  double least_of_some() const {
-    constexpr std::size_t most_runs = 64;
-    constexpr std::size_t most_in_a_run = 64;
-    const std::size_t count = obstacles_.size();
-    const std::size_t runs = std::clamp<std::size_t>(count / (1024 * most_in_a_run), 1, most_runs);
-    const std::size_t length = std::min(most_in_a_run, count / 64 + 1);
-    const auto number = [&](std::size_t i) { return count / runs * (i / length) + i % length; };
-    const double bound = tally_of(std::min<std::size_t>(length, 8), 8, boundless, number).least;  // each chunk's first
-    return std::min(bound, tally_of(runs * length, 128, bound, number).least);
-  }
-
-  static DoubleWall wall_of(const Segment& s) { return {s.a.x, s.a.y, s.b.x, s.b.y}; }
-
-  /// What the screen leaves; the box is that of walls and polygons.
-  PathScreen::Rest screened(const PathScreen& screen) const {
-    PathScreen::Rest all = scene_.walls.visit([&](auto walls) {
-      return screened(screen, walls.size(), 0, [walls](Range r) { return walls.subspan(r.first, r.size()); });
-    });
-    const auto sides_in = [&](Range r) {
-      std::vector<DoubleWall> sides(r.size());
-      for (std::size_t i = r.first; i < r.last; ++i) sides[i - r.first] = wall_of(obstacles_.side_segment(i));
-      return sides;
-    };
-    const PathScreen::Rest sides = screened(screen, obstacles_.sides().size(), obstacles_.wall_count(), sides_in);
-    all.doubtful.insert(all.doubtful.end(), sides.doubtful.begin(), sides.doubtful.end());
-    for (const Ring& ring : obstacles_.rings()) {
-      if (ring.polygon != Ring::none) all.box.include(ring.box);  // the bounds are no obstacle in this sense
-    }
-    return all;
-  }
-
-  /// Numbers count from `first_number`.
-  template <class WallsIn>
-  PathScreen::Rest screened(const PathScreen& screen, std::size_t count, std::size_t first_number,
-                            const WallsIn& walls_in) const {
-    const auto rest_of = [&](Range r) {
-      PathScreen::Rest rest;
-      const auto& walls = walls_in(r);
-      screen.sift(std::span(walls), first_number + r.first, rest);
-      return rest;
-    };
-    PathScreen::Rest all;
-    for (const PathScreen::Rest& part : parts_of_chunks(count, verify_grain, execution_, rest_of)) {
-      all.doubtful.insert(all.doubtful.end(), part.doubtful.begin(), part.doubtful.end());
-      all.box.include(part.box);
-    }
-    return all;
-  }
-
-  const Scene& scene_;
-  const VerifyOptions& options_;
-  const Execution& execution_;
-  const Obstacles& obstacles_;
-  const LegBoxes& legs_;
-};
+  return all;
+}
 
 }  // namespace
 
 void check_plane_scene(const Scene& scene, const Execution& execution) {
-  const SceneParts parts(scene);
-  const char* high = parts.spheres ? "spheres" : parts.boxes ? "boxes" : parts.solids ? "solids" : nullptr;
+  // Every member by its name, so that one more in Scene does not compile before it is said here, and in
+  // check_space_scene(), what it means: can it be in a body's way? The seams lie between the polygons; where walls are
+  // left out there are none: judged by verify_among_cells alone.
+  const auto& [walls, polygons, seams, spheres, boxes, solids, bounds, clearance, maze, formula, packed, robot, arm,
+               start, goal, other_goals, named_start, named_goals, goal_pose, grid, prices, map, source] = scene;
+  const char* high = !spheres.empty() ? "spheres" : !boxes.empty() ? "boxes" : !solids.empty() ? "solids" : nullptr;
   if (high != nullptr) {
     refuse(scene, fmt::format("has {}, which only arms can meet: bodies in the plane are not judged among them", high));
   }
-  if (parts.map && (parts.polygons || parts.bounds)) {
-    refuse(scene, parts.polygons ? "has polygons beside a map: the map is judged alone"
-                                 : "has bounds beside a map: the map is judged alone");
+  if (map && (!polygons.empty() || bounds)) {
+    refuse(scene, polygons.empty() ? "has bounds beside a map: the map is judged alone"
+                                   : "has polygons beside a map: the map is judged alone");
   }
-  if (parts.map && parts.walls) check_walls_of_map(scene, execution);
-  if (parts.walls || parts.polygons || parts.bounds || parts.map) return;
+  if (map && walls.size() > 0) check_walls_of_map(scene, execution);
+  if (walls.size() > 0 || !polygons.empty() || bounds || map) return;
   refuse(scene, "has neither obstacles nor bounds: nothing confines the body");
 }
 
 void check_space_scene(const Scene& scene) {
-  const SceneParts parts(scene);
-  const char* flat = parts.walls      ? "walls"
-                     : parts.polygons ? "polygons"
-                     : parts.bounds   ? "bounds"
-                     : parts.map      ? "a map"
-                                      : nullptr;
+  const char* flat = scene.walls.size() > 0    ? "walls"
+                     : !scene.polygons.empty() ? "polygons"
+                     : scene.bounds            ? "bounds"
+                     : scene.map               ? "a map"
+                                               : nullptr;
   if (flat == nullptr) return;
   refuse(scene, fmt::format("has {}, which have no height: arms are judged among spheres and boxes", flat));
 }
@@ -388,9 +313,8 @@ void Comparison::compare(const Segment& s, std::size_t leg, const Segment& obsta
     narrow();
   }
   if (r > 0.0) {
-    if (d <= r * (1.0 + 1e-12) || is_doubtful(d, s, obstacle)) {
-      if (exact::closer_than(s, obstacle, r)) forbid(leg, number);
-    }
+    const bool may_be_near = d <= r * (1.0 + 1e-12) || is_doubtful(d, s, obstacle);
+    if (may_be_near && exact::closer_than(s, obstacle, r)) forbid(leg, number);
   } else if (d == 0.0 && exact::touch(s, obstacle)) {
     touch(s, leg, obstacle, number);
   }
@@ -417,7 +341,37 @@ void Comparison::narrow() {
 
 Tally compare_obstacles(const Scene& scene, const Obstacles& obstacles, const LegBoxes& legs,
                         const VerifyOptions& options, const Execution& execution) {
-  return ObstaclePass(scene, obstacles, legs, options, execution).run();
+  if (obstacles.size() == 0) return {};
+  // Of the obstacles of numbers number(0) .. number(count - 1), in chunks of `size`.
+  const auto tally_of = [&](std::size_t count, std::size_t size, double at_most, const auto& number) {
+    const auto obstacle = [&](std::size_t i) { return BoxedSegment(obstacles.segment(number(i)), number(i)); };
+    return tally_chunks(count, size, options, at_most, execution, [&](Range r, Comparison& comparison) {
+      const auto with_leg = [&](const BoxedSegment& one, std::size_t leg) {
+        comparison.with_leg({legs.leg(leg), leg}, one);
+      };
+      AgainstBlocks(legs, comparison, execution, with_leg).compare(r, obstacle);
+    });
+  };
+  // A distance from the path that some obstacle has: nothing beyond it matters for the least one. Asked are runs in a
+  // row, a 64th of a few obstacles, a 1024th of many.
+  constexpr std::size_t most_runs = 64;
+  constexpr std::size_t most_in_a_run = 64;
+  const std::size_t count = obstacles.size();
+  const std::size_t runs = std::clamp<std::size_t>(count / (1024 * most_in_a_run), 1, most_runs);
+  const std::size_t length = std::min(most_in_a_run, count / 64 + 1);
+  const auto number = [&](std::size_t i) { return count / runs * (i / length) + i % length; };
+  const double near = tally_of(std::min<std::size_t>(length, 8), 8, boundless, number).least;  // each chunk's first
+  const double bound = std::min(near, tally_of(runs * length, 128, near, number).least);
+  // What the screen drops is as far as it is told from a leg; between the two, only a leg almost along an axis may be
+  // taken to be nearer than it is.
+  const double far = legs.has_skew() ? bound * (1.0 + 4.0 * exact::distance_error) : bound;
+  PathScreen screen(legs, {obstacles.size(), typical_wall(scene.walls), std::max(far, options.reach())}, execution);
+  screen.set_reach(far, options.reach());
+  const PathScreen::Rest rest = screened(screen, scene.walls, obstacles, execution);
+  Tally tally = tally_of(rest.doubtful.size(), small_grain, bound, [&](std::size_t i) { return rest.doubtful[i]; });
+  tally.box = rest.box;
+  tally.least = std::min(tally.least, bound);
+  return tally;
 }
 
 Tally compare_indexed(const ObstacleIndex& index, const LegBoxes& legs, const VerifyOptions& options,

@@ -50,7 +50,8 @@ class ArmVerifier {
   }
   std::optional<Violation> wrong_state(std::string_view which, const std::optional<JointState>& wanted,
                                        const JointState& q, std::size_t leg) const {
-    const double off = wanted ? difference(q, *wanted) : 0.0;
+    double off = 0.0;  // the largest difference of a joint, in radians or metres
+    for (const double by : way(q, wanted.value_or(q))) off = std::max(off, std::abs(by));
     if (off <= options.tolerance) return std::nullopt;
     return elsewhere(which, std::span(*wanted).first(model.variables.size()), off, leg);
   }
@@ -184,12 +185,6 @@ class ArmVerifier {
     obstacles.push_back(
         {.core = {.kind = SolidKind::box, .half = half, .far = half.norm()}, .frame = frame, .owner = number});
   }
-  /// The largest difference of a joint, in radians or metres.
-  double difference(const JointState& a, const JointState& b) const {
-    double most = 0.0;
-    for (const double by : way(a, b)) most = std::max(most, std::abs(by));
-    return most;
-  }
 };
 
 /// One leg.
@@ -246,11 +241,6 @@ class ArmLeg {
     double met;       ///< the distance in the middle, at most
     double way;       ///< how far they go to either side, against each other
     double rounding;  ///< of `met`, at most
-  };
-  /// How a body moves against another one, as a JudgedFrame says it.
-  struct Turning {
-    Vec3 spin;
-    Vec3 drift;
   };
   /// What is open of [first, last) is put behind, for the halves, and taken away again.
   void check_piece(double middle, double half, std::size_t first, std::size_t last) {
@@ -336,25 +326,24 @@ class ArmLeg {
         gap_between(at_a, at_b, std::max(0.05 * way, rounding), (wanted + first_order) * (1.0 + 1e-14));
     Known known{gap.least - first_order, gap.most - radii, way, rounding};
     if (known.proved > wanted || !(gap.least > 0.0)) return known;
-    const JudgedFrame& base = frames_[behind];
-    const double apart = along_plane(at_a, moving(a.joint, base), at_b, moving(b.joint, base), gap.towards);
+    const double apart = along_plane(at_a, a.joint, at_b, b.joint, frames_[behind], gap.towards);
     const double bend = 0.5 * half_ * half_ * (sway_a.bend + sway_b.bend);
     known.proved = std::max(known.proved, apart - radii - bend - rounding);
     return known;
   }
-  /// How far the cores are apart along n all along the piece, but for their bends.
-  double along_plane(const PlacedCore& a, const Turning& of_a, const PlacedCore& b, const Turning& of_b,
+  /// How far the cores are apart along n all along the piece, but for their bends; as `base` sees the joints move.
+  double along_plane(const PlacedCore& a, int joint_a, const PlacedCore& b, int joint_b, const JudgedFrame& base,
                      const Vec3& n) const {
+    const JudgedFrame& of_a = frames_[as_whole<std::size_t>(joint_a + 1)];
+    const JudgedFrame& of_b = frames_[as_whole<std::size_t>(joint_b + 1)];
+    const Vec3 spin_a = of_a.spin - base.spin;
+    const Vec3 spin_b = of_b.spin - base.spin;
     double least = std::numeric_limits<double>::infinity();
     for (const double t : {-half_, half_}) {
-      const double drift = t * n.dot(of_b.drift - of_a.drift);
-      least = std::min(least, drift - b.reach(-n - t * n.cross(of_b.spin)) - a.reach(n + t * n.cross(of_a.spin)));
+      const double drift = t * n.dot((of_b.drift - base.drift) - (of_a.drift - base.drift));
+      least = std::min(least, drift - b.reach(-n - t * n.cross(spin_b)) - a.reach(n + t * n.cross(spin_a)));
     }
     return least;
-  }
-  Turning moving(int joint, const JudgedFrame& against) const {
-    const JudgedFrame& frame = frames_[as_whole<std::size_t>(joint + 1)];
-    return {frame.spin - against.spin, frame.drift - against.drift};
   }
   /// Asks whether it is time to stop, now and then: obstacles may be many, and measuring hulls takes long.
   void watch(const JudgedBody& a, const JudgedBody& b) {

@@ -243,44 +243,6 @@ JudgedBound judge_by_search(const Scene& scene, const BoundQuestion& asked, doub
 /// More than what the few steps of each formula below are rounded by, as a share.
 constexpr double rounding = 1e-12;
 
-/// Blocked cells column by column, each a run of rows sorted from below: the nearest ones of a row by bisection.
-class BlockedColumns {
- public:
-  BlockedColumns(const OccupancyMap& map, const Execution& execution) : height_(map.height()), columns_(map.width()) {
-    execution.reserve(sizeof(std::uint32_t) * map.blocked.count());
-    for (std::uint32_t y = 0; y < map.height(); ++y) {
-      execution.check();
-      for (std::uint32_t x = 0; x < map.width(); ++x) {
-        if (map.blocked.test(x, y)) columns_[x].push_back(y);
-      }
-    }
-  }
-
-  /// Calls visit(low, high) for squares x .. x + 1 of rows low .. high: of each direction the nearest. What lies beyond
-  /// the map is blocked.
-  template <class Visit>
-  void around(std::int64_t x, std::uint32_t y, const Visit& visit) const {
-    constexpr double endless = std::numeric_limits<double>::infinity();
-    if (x < 0 || x >= as_whole<std::int64_t>(columns_.size())) return visit(-endless, endless);
-    const std::vector<std::uint32_t>& rows = columns_[as_whole<std::size_t>(x)];
-    const auto above = std::lower_bound(rows.begin(), rows.end(), y);
-    if (above == rows.end()) {
-      visit(height_, endless);
-    } else {
-      visit(*above, *above + 1.0);
-    }
-    if (above == rows.begin()) {
-      visit(-endless, 0.0);
-    } else {
-      visit(*std::prev(above), *std::prev(above) + 1.0);
-    }
-  }
-
- private:
-  double height_;
-  std::vector<std::vector<std::uint32_t>> columns_;
-};
-
 double outside_by(double x, double low, double high) { return std::max({low - x, x - high, 0.0}); }
 
 class Proof {
@@ -291,7 +253,15 @@ class Proof {
         proof_(proof),
         execution_(execution),
         parts_(proof.width / map.width()),
-        columns_(map, execution) {}
+        columns_(map.width()) {
+    execution.reserve(sizeof(std::uint32_t) * map.blocked.count());
+    for (std::uint32_t y = 0; y < map.height(); ++y) {
+      execution.check();
+      for (std::uint32_t x = 0; x < map.width(); ++x) {
+        if (map.blocked.test(x, y)) columns_[x].push_back(y);
+      }
+    }
+  }
 
   /// Of the first triangle that is too steep; empty: none is.
   std::string fault() const {
@@ -339,13 +309,6 @@ class Proof {
   }
 
  private:
-  std::array<Vec2, 3> places(std::uint32_t x, std::uint32_t y, std::size_t i) const {
-    constexpr std::array<Vec2, 5> around{{{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}}};
-    const Vec2 low{static_cast<double>(x), static_cast<double>(y)};
-    const double cell = 1.0 / parts_;
-    return {cell * (low + Vec2{0.5, 0.5}), cell * (low + around[i]), cell * (low + around[i + 1])};
-  }
-
   /// By the legs of the right angle at the middle.
   double slope_in(std::uint32_t x, std::uint32_t y, std::size_t i) const {
     constexpr std::array<std::array<std::size_t, 2>, 5> around{{{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}}};
@@ -355,13 +318,30 @@ class Proof {
     return std::sqrt(2.0 * (a * a + b * b)) * parts_ / map_.cell;
   }
 
+  /// Calls visit(low, high) for squares x .. x + 1 of rows low .. high: of each direction the nearest that is blocked,
+  /// by bisection. What lies beyond the map is.
+  template <class Visit>
+  void nearest_blocked(std::int64_t x, std::uint32_t y, const Visit& visit) const {
+    constexpr double endless = std::numeric_limits<double>::infinity();
+    if (x < 0 || x >= std::int64_t{map_.width()}) return visit(-endless, endless);
+    const std::vector<std::uint32_t>& rows = columns_[as_whole<std::size_t>(x)];
+    const auto above = std::lower_bound(rows.begin(), rows.end(), y);
+    const bool is_top = above == rows.end();
+    visit(is_top ? map_.height() : *above, is_top ? endless : *above + 1.0);
+    const bool is_lowest = above == rows.begin();
+    visit(is_lowest ? -endless : *std::prev(above), is_lowest ? 0.0 : *std::prev(above) + 1.0);
+  }
+
   /// Of length in the triangle; infinite where the middle can't be. The distance to a square is convex: nowhere in the
   /// triangle is it more than at one of the corners.
   double least_price(std::uint32_t x, std::uint32_t y, std::size_t i) const {
     const double keeps = claim_.keeps / map_.cell * (1.0 - 1e-9);
     const double radius = claim_.radius / map_.cell;
     const double reach = claim_.price > 0.0 ? claim_.reach / map_.cell : 0.0;
-    const std::array<Vec2, 3> at = places(x, y, i);
+    constexpr std::array<Vec2, 5> corners{{{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}}};
+    const Vec2 low{static_cast<double>(x), static_cast<double>(y)};
+    const double part = 1.0 / parts_;
+    const Vec2 at[] = {part * (low + Vec2{0.5, 0.5}), part * (low + corners[i]), part * (low + corners[i + 1])};
     const std::uint32_t row = y / parts_;
     const std::int64_t column = x / parts_;
     const auto around = bounded_whole<std::int64_t>(std::max(keeps, radius + reach) + 2.0, 1.0, 1e9);
@@ -369,7 +349,7 @@ class Proof {
     for (std::int64_t c = std::max<std::int64_t>(-1, column - around);
          c <= std::min<std::int64_t>(map_.width(), column + around); ++c) {
       const auto low_x = static_cast<double>(c);
-      columns_.around(c, row, [&](double low_y, double high_y) {
+      nearest_blocked(c, row, [&](double low_y, double high_y) {
         double farthest_sq = 0.0;
         for (const Vec2 p : at) {
           const double dx = c < 0                             ? p.x
@@ -393,7 +373,7 @@ class Proof {
   const CellPotential& proof_;
   const Execution& execution_;
   std::uint32_t parts_;
-  BlockedColumns columns_;
+  std::vector<std::vector<std::uint32_t>> columns_;  // the rows of each one's blocked cells, from below
 };
 
 }  // namespace

@@ -141,11 +141,8 @@ class Holes {
   /// of their holes.
   void follow(Vec2 a, Vec2 b, std::vector<std::int32_t>& word) const {
     const bool up = a.y < b.y;
-    const auto first_above = [&](double height) {
-      return std::upper_bound(rays_.begin(), rays_.end(), height, [](double y, const Ray& r) { return y < r.y; });
-    };
-    const auto first = first_above(std::min(a.y, b.y));
-    const auto last = first_above(std::max(a.y, b.y));
+    const auto first = std::ranges::upper_bound(rays_, std::min(a.y, b.y), {}, &Ray::y);
+    const auto last = std::ranges::upper_bound(rays_, std::max(a.y, b.y), {}, &Ray::y);
     for (auto i = 0; i < last - first; ++i) {
       const Ray& ray = up ? first[i] : *(last - 1 - i);
       const double x = a.x + (b.x - a.x) * ((ray.y - a.y) / (b.y - a.y));

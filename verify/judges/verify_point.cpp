@@ -78,19 +78,16 @@ Verification judged_legs(const Scene& scene, const ObstacleIndex* index, std::sp
 // or reaches as far as the least distance met so far, so a path far from everything is not compared with everything.
 
 /// Is this cell closed to the robot?
-class Closed {
- public:
-  Closed(const OccupancyMap& map, bool on_water) : map_(map), on_water_(on_water) {}
+struct Closed {
+  const OccupancyMap& map;
+  bool on_water;
+
   bool operator()(std::int64_t x, std::int64_t y) const {
-    if (x < 0 || y < 0 || x >= map_.width() || y >= map_.height()) return true;
-    return on_water_ ? !map_.water.holds(x, y) : map_.blocked.holds(x, y);
+    if (x < 0 || y < 0 || x >= map.width() || y >= map.height()) return true;
+    return on_water ? !map.water.holds(x, y) : map.blocked.holds(x, y);
   }
   /// Of the map's cells.
-  Box box() const { return {{}, {static_cast<double>(map_.width()), static_cast<double>(map_.height())}}; }
-
- private:
-  const OccupancyMap& map_;
-  bool on_water_;
+  Box box() const { return {{}, {static_cast<double>(map.width()), static_cast<double>(map.height())}}; }
 };
 
 /// A leg in cells, and the distance that it has to keep.
@@ -186,12 +183,6 @@ double rounding_at(const OccupancyMap& map, Vec2 p) {
   return 4e-15 * (norm(p) + norm(map.origin)) / map.cell;
 }
 
-/// Less than what is asked for by what rounding may take, and no more.
-JudgedLeg judged_leg(const OccupancyMap& map, const Segment& leg, double reach) {
-  const double rounding = rounding_at(map, leg.a) + rounding_at(map, leg.b);
-  return {{map_point(map, leg.a), map_point(map, leg.b)}, std::max(reach / map.cell - rounding, 0.0)};
-}
-
 }  // namespace
 
 void check_judged_path(std::span<const Vec2> path, const VerifyOptions& options, const Execution& execution) {
@@ -236,13 +227,16 @@ Verification verify_on_map(const OccupancyMap& map, std::span<const Vec2> path, 
     throw InputError("contact", "can't be allowed on a map: a blocked cell is a closed square");
   }
   const auto first_cell = cell_at(map, path.front());
-  const Closed closed(map, first_cell && map.water.holds(first_cell->x, first_cell->y));
+  const Closed closed{map, first_cell && map.water.holds(first_cell->x, first_cell->y)};
   const auto leg_at = [&](std::size_t i) { return Segment{path[i], path[std::min(i + 1, path.size() - 1)]}; };
   constexpr std::size_t legs_a_chunk = 256;
   LegReport legs = report_legs(legs_of(path.size()), legs_a_chunk, execution, [&](Range r) {
     LegReport report;
     for (std::size_t i = r.first; i < r.last; ++i) {
-      const JudgedLeg leg = judged_leg(map, leg_at(i), options.reach());
+      const auto [a, b] = leg_at(i);
+      // Needed is less than what is asked for by what rounding may take, and no more.
+      const double rounding = rounding_at(map, a) + rounding_at(map, b);
+      const JudgedLeg leg{{map_point(map, a), map_point(map, b)}, std::max(options.reach() / map.cell - rounding, 0.0)};
       const Nearest nearest = nearest_to(closed, leg, report.least, execution);
       report.least = std::min(report.least, nearest.distance);
       const bool is_free = nearest.distance > 0.0 && nearest.distance >= leg.needed;

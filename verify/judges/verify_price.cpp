@@ -103,9 +103,8 @@ class NearnessCost {
     double sum = 0.0;
     for (std::size_t i = 1; i < cuts_.size(); ++i) {
       const double middle = 0.5 * (cuts_[i - 1] + cuts_[i]);
-      const auto nearest = std::min_element(near_.begin(), near_.end(), [&](const auto& one, const auto& other) {
-        return one.at(middle) < other.at(middle);
-      });
+      const auto nearest =
+          std::ranges::min_element(near_, {}, [middle](const SquaredDistance& q) { return q.at(middle); });
       if (nearest->at(middle) < reach * reach) sum += integral_of_one(*nearest, cuts_[i - 1], cuts_[i], reach);
     }
     return std::max(sum, 0.0);
@@ -126,11 +125,9 @@ class NearCells {
   double over(const JudgedRay& ray) {
     cuts_.clear();
     add_grid_lines(ray.from, ray.u, ray.length, cuts_);
-    double sum = 0.0;
-    for_pieces(cuts_, ray.length, execution_, [&](double from, double to) {
-      sum += over_piece(ray.at(from), ray.u, to - from, ray.at(0.5 * (from + to)));
+    return sum_of_pieces(cuts_, ray.length, execution_, [&](double from, double to) {
+      return over_piece(ray.at(from), ray.u, to - from, ray.at(0.5 * (from + to)));
     });
-    return sum;
   }
 
  private:
@@ -221,15 +218,13 @@ class NearSides {
                                 if (t > 0.0 && t < ray.length) cuts_.push_back(t);
                               }
                             });
-    double sum = 0.0;
-    for_pieces(cuts_, ray.length, execution_, [&](double from, double to) {
+    return sum_of_pieces(cuts_, ray.length, execution_, [&](double from, double to) {
       things_.clear();
       const Vec2 p = ray.at(from);
       const Vec2 middle = ray.at(0.5 * (from + to));
       for (const Segment& side : near_) things_.push_back(seen(side, p, ray.u, middle));
-      sum += nearness_.over(things_, to - from, reach_);
+      return nearness_.over(things_, to - from, reach_);
     });
-    return sum;
   }
 
  private:
@@ -296,7 +291,8 @@ double square_to(Vec2 p, const Segment& s) {
 /// What nearness costs a body along its path.
 class BodyNearness {
  public:
-  BodyNearness(const Scene& scene, const RobotSpec& robot, const ClearancePrice& price, const Execution& execution)
+  BodyNearness(const Scene& scene, const RobotSpec& robot, const ClearancePrice& price, std::span<const BodyLeg> legs,
+               const Execution& execution)
       : surroundings_(scene, nullptr, execution),
         execution_(execution),
         outline_(robot.outline.empty() ? std::vector<Vec2>{Vec2{}} : robot.outline),
@@ -305,11 +301,7 @@ class BodyNearness {
         reach_(price.reach.value_or(2.0 * robot.radius)) {
     if (!(reach_ > 0.0)) throw InputError("clearance_price", "says no reach, and the body has no width");
     for (const Vec2 p : outline_) extent_ = std::max(extent_, norm(p));
-  }
-
-  /// Boxes around all parts of all legs, in their order.
-  void look_around(std::span<const BodyLeg> legs) {
-    std::vector<Box> boxes;
+    std::vector<Box> boxes;  // around all parts of all legs, in their order
     for (const BodyLeg& leg : legs) {
       execution_.check();
       for (double i = 0.0, parts = parts_of(leg); i < parts; ++i) boxes.push_back(box_of_part(leg, i, parts));
@@ -317,6 +309,7 @@ class BodyNearness {
     surroundings_.file(boxes, execution_);
   }
 
+  /// Of one of the legs.
   void add(const BodyLeg& leg, PriceParts& parts) {
     if (!(leg.length() > 0.0)) return;
     low_ = high_ = 0.0;
@@ -488,8 +481,7 @@ PriceParts verify_body_price(const Scene& scene, std::span<const Se2> path, cons
         leg.is_straight ? factors.over(Segment{leg.arc.from, leg.arc.from + leg.chord}) : factors.over(leg.arc);
   }
   if (!prices.clearance || !(prices.clearance->price > 0.0)) return parts;
-  BodyNearness nearness(scene, robot, *prices.clearance, execution);
-  nearness.look_around(legs);
+  BodyNearness nearness(scene, robot, *prices.clearance, legs, execution);
   for (const BodyLeg& leg : legs) nearness.add(leg, parts);
   return parts;
 }

@@ -69,16 +69,18 @@ struct JudgedArc {
 /// Adds where a leg passes the lines 0, 1, 2, … of a grid, along both of its axes. by: of the leg a unit of its length.
 void add_grid_lines(Vec2 from, Vec2 by, double length, std::vector<double>& cuts);
 
-/// Calls piece(from, to) for all between two cuts, and the ends.
+/// The sum of what piece(from, to) says of all between two cuts, and the ends.
 template <class Piece>
-void for_pieces(std::vector<double>& cuts, double length, const Execution& execution, const Piece& piece) {
+double sum_of_pieces(std::vector<double>& cuts, double length, const Execution& execution, const Piece& piece) {
   cuts.push_back(0.0);
   cuts.push_back(length);
   std::sort(cuts.begin(), cuts.end());
+  double sum = 0.0;
   for (std::size_t i = 1; i < cuts.size(); ++i) {
     execution.check();
-    if (cuts[i] > cuts[i - 1]) piece(cuts[i - 1], cuts[i]);
+    if (cuts[i] > cuts[i - 1]) sum += piece(cuts[i - 1], cuts[i]);
   }
+  return sum;
 }
 
 /// Of one scene and its prices, to which it refers. One thread.

@@ -18,9 +18,9 @@ namespace warren {
 namespace {
 
 // One leg of a body that moves in the plane against all sides of obstacles near it: the head of the header tells the
-// method for bodies that turn while they go straight, CarVerifier's that of arcs. Both rest on this: a body that is
-// apart from an obstacle where a leg begins, neither inside of the other, and whose outline does not meet the
-// obstacle's on the leg, stays apart.
+// method for bodies that turn while they go straight, what is said of cars below that of arcs. Both rest on this: a
+// body that is apart from an obstacle where a leg begins, neither inside of the other, and whose outline does not meet
+// the obstacle's on the leg, stays apart.
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -88,14 +88,15 @@ class BodyVerifier {
   }
 
   /// What all legs come to. settle(i) says of the i-th what needs no obstacle near it; where that is a violation, the
-  /// leg is looked at no more: it may go anywhere. Of the others report_of(i, sides) says the rest, with scratch for
-  /// the sides, once or several times: at first with the obstacles up to `reach` away, then with ever more until the
-  /// least distance is known.
+  /// leg is looked at no more: it may go anywhere. Of the others report_of(i, sides) says the rest, by all sides that
+  /// may be near the leg or a part of it, once or several times: at first with the obstacles up to `reach` away, or
+  /// what the body needs, then with ever more until the least distance is known.
   template <class Settle, class ReportOf>
   LegReport check_all(std::span<const Leg> legs, std::span<const Se2> path, double reach, const Settle& settle,
                       const ReportOf& report_of) {
     constexpr double widening = 8.0;
     constexpr std::size_t legs_a_chunk = 16;
+    reach = std::max(1.01 * clearance_ + radius_, reach);
     execution_.reserve(legs.size());
     std::vector<std::uint8_t> settled(legs.size());
     const LegReport at_once = report_legs(legs.size(), legs_a_chunk, execution_.quiet(), [&](Range r) {
@@ -114,24 +115,22 @@ class BodyVerifier {
         Sides scratch;
         LegReport part;
         for (std::size_t i = r.first; i < r.last; ++i) {
-          if (settled[i] == 0) part.add(report_of(i, scratch));
+          if (settled[i] != 0) continue;
+          surroundings_.gather(boxes_of(legs[i]), scratch, execution_);
+          part.add(report_of(i, scratch));
         }
         return part;
       }));
       if (whole.least <= reach || looks_everywhere(path)) return whole;
     }
   }
-  double least_reach() const { return 1.01 * clearance_ + radius_; }
 
   /// How far poses may lie beside the line that is checked in their place.
   double bend() const { return bend_; }
 
-  /// All sides that may be near the leg or a part of it.
-  void gather(const Leg& leg, Sides& sides) const { surroundings_.gather(boxes_of(leg), sides, execution_); }
-  /// `number` is what a violation calls the leg.
-  LegReport check(const Leg& leg, const Sides& sides, std::size_t number) const {
-    if (leg.turn == 0.0) return check_straight(leg, sides, number);
-    return leg.is_arc ? check_arc(leg, sides, number) : check_turning(leg, sides, number);
+  LegReport check(const Leg& leg, const Sides& sides) const {
+    if (leg.turn == 0.0) return check_straight(leg, sides);
+    return leg.is_arc ? check_arc(leg, sides) : check_turning(leg, sides);
   }
   /// Is the pose inside a polygon, outside the bounds, off the box or among a map's blocked cells? Boundaries are
   /// check()'s.
@@ -161,7 +160,7 @@ class BodyVerifier {
 
  private:
   struct Near {
-    std::size_t side;  // of the leg's
+    const NearSide* side;
     double distance;
   };
   /// Obstacles farther than `reach` from these legs, but for the settled ones, are left out from now on.
@@ -201,16 +200,11 @@ class BodyVerifier {
       return bends ? arc.at(leg.turn * part / parts) : leg.a.position() + (part / parts) * leg.way;
     };
     std::vector<Box> boxes;
-    for (double part = 0.0; part < parts; ++part) {
-      Box box;
-      box.include(at(part));
-      box.include(at(part + 1.0));
-      boxes.push_back({box.min - Vec2{margin, margin}, box.max + Vec2{margin, margin}});
-    }
+    for (double part = 0.0; part < parts; ++part) boxes.push_back(box_of({at(part), at(part + 1.0)}).grown(margin));
     return boxes;
   }
   /// No halving: exact but for the rounding of corners.
-  LegReport check_straight(const Leg& leg, const Sides& sides, std::size_t number) const {
+  LegReport check_straight(const Leg& leg, const Sides& sides) const {
     const std::vector<Vec2> corners = corners_at(leg, 0.0);
     Box swept;
     for (const Vec2 p : corners) {
@@ -221,20 +215,20 @@ class BodyVerifier {
     execution_.check();
     for (const NearSide& side : sides) {
       if (std::sqrt(exact::gap_sq(swept, box_of(side.segment))) > report.met) continue;
-      note(distance_to_sweep(corners, leg.way, side.segment), rounding_ + leg.blur, side, number, report);
+      note(distance_to_sweep(corners, leg.way, side.segment), rounding_ + leg.blur, side, leg, report);
     }
     return report;
   }
-  LegReport check_turning(const Leg& leg, const Sides& sides, std::size_t number) const {
+  LegReport check_turning(const Leg& leg, const Sides& sides) const {
     std::vector<Near> all;
     all.reserve(sides.size());
-    for (std::size_t i = 0; i < sides.size(); ++i) all.push_back({i, 0.0});
+    for (const NearSide& side : sides) all.push_back({&side, 0.0});
     LegReport report;
-    check_piece(leg, 0.5, 0.5, sides, all, number, report);
+    check_piece(leg, 0.5, 0.5, all, report);
     return report;
   }
   /// No halving: exact but for rounding.
-  LegReport check_arc(const Leg& leg, const Sides& sides, std::size_t number) const {
+  LegReport check_arc(const Leg& leg, const Sides& sides) const {
     const std::vector<Vec2> corners = corners_at({leg.a, {}, 0.0}, 0.0);
     const Arc way = arc_of(leg);
     const double rounding = rounding_ + leg.blur + 1e-15 * distance(way.center, way.from);
@@ -242,28 +236,29 @@ class BodyVerifier {
     for (const NearSide& side : sides) {
       execution_.check();
       if (distance(way, side.segment) - radius_ > report.met) continue;
-      note(distance_to_arcs(corners, way, side.segment), rounding, side, number, report);
+      note(distance_to_arcs(corners, way, side.segment), rounding, side, leg, report);
     }
     if (!report.violation && leaves_box(way)) {
-      report.violation = Violation{number, 0.0, "box: the way leaves the box of the obstacles"};
+      report.violation = Violation{leg.number, 0.0, "box: the way leaves the box of the obstacles"};
     }
     return report;
   }
   /// Notes a distance, which is known but for `rounding`, if it is the least.
-  void note(double distance, double rounding, const NearSide& side, std::size_t number, LegReport& report) const {
+  void note(double distance, double rounding, const NearSide& side, const Leg& leg, LegReport& report) const {
     if (distance >= report.met) return;
     report.met = distance;
     report.least = distance - rounding;
     if (report.least > clearance_ || (clearance_ > 0.0 && report.least >= clearance_)) return;
-    report.violation = Violation{number, distance, surroundings_.name(side.number)};
+    report.violation = Violation{leg.number, distance, surroundings_.name(side.number)};
   }
   /// Between its ends, which are looked at as poses.
   bool leaves_box(const Arc& way) const {
     if (confines_ || map_ != nullptr) return false;
-    const auto [low, high] = surroundings_.box().grown(2.0 * poses_off_);
-    const Segment sides[] = {
-        {low, {high.x, low.y}}, {{high.x, low.y}, high}, {high, {low.x, high.y}}, {{low.x, high.y}, low}};
-    return std::any_of(std::begin(sides), std::end(sides), [&](const Segment& s) { return distance(way, s) == 0.0; });
+    const std::array<Vec2, 4> corners = surroundings_.box().grown(2.0 * poses_off_).corners();
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      if (distance(way, exact::outline_side(corners, i)) == 0.0) return true;
+    }
+    return false;
   }
   std::vector<Vec2> corners_at(const Leg& leg, double t) const {
     const double theta = leg.a.theta + t * leg.turn;
@@ -276,8 +271,7 @@ class BodyVerifier {
     return corners;
   }
   /// The sides of `among` that may be the nearest to the body within `way` of the place t.
-  std::vector<Near> nearest_at(const Leg& leg, double t, double way, const Sides& sides,
-                               const std::vector<Near>& among) const {
+  std::vector<Near> nearest_at(const Leg& leg, double t, double way, const std::vector<Near>& among) const {
     const std::vector<Vec2> corners = corners_at(leg, t);
     Box body;
     for (const Vec2 p : corners) body.include(p);
@@ -285,7 +279,7 @@ class BodyVerifier {
     const double spread = 2.0 * (way + rounding_);
     std::vector<Near> near;
     for (const Near& n : among) {
-      const Segment& s = sides[n.side].segment;
+      const Segment& s = n.side->segment;
       if (std::sqrt(exact::gap_sq(body, box_of(s))) > least + spread) continue;
       const double distance = distance_to(corners, s);
       least = std::min(least, distance);
@@ -295,18 +289,17 @@ class BodyVerifier {
     return near;
   }
   /// Checks the part of the leg that is `half` to both sides of `middle`.
-  void check_piece(const Leg& leg, double middle, double half, const Sides& sides, const std::vector<Near>& among,
-                   std::size_t number, LegReport& report) const {
+  void check_piece(const Leg& leg, double middle, double half, const std::vector<Near>& among,
+                   LegReport& report) const {
     constexpr std::size_t most_looks = 2'000'000;  // some seconds
     constexpr std::size_t enough_looks = 200'000;  // for the least distance; beyond, being apart is enough
     execution_.check();
     const bool weary = ++report.looks > most_looks;
     const double whole = portable::hypot(leg.way.x, leg.way.y) + radius_ * std::abs(leg.turn);
     const double way = half * whole * (1.0 + 1e-12);
-    const std::vector<Near> near = nearest_at(leg, middle, way, sides, among);
+    const std::vector<Near> near = nearest_at(leg, middle, way, among);
     if (near.empty() || report.violation) return;
-    const auto less = [](const Near& a, const Near& b) { return a.distance < b.distance; };
-    const Near nearest = *std::min_element(near.begin(), near.end(), less);
+    const Near nearest = *std::ranges::min_element(near, {}, &Near::distance);
     const double proved = nearest.distance - way - rounding_;
     report.met = std::min(report.met, nearest.distance);
     const bool settled = proved >= report.met - close_ || way < finest_ || report.looks > enough_looks;
@@ -316,11 +309,11 @@ class BodyVerifier {
     }
     if (nearest.distance <= rounding_ || nearest.distance + rounding_ < clearance_ || way < finest_ || weary) {
       report.least = std::min(report.least, nearest.distance);
-      report.violation = Violation{number, nearest.distance, surroundings_.name(sides[nearest.side].number)};
+      report.violation = Violation{leg.number, nearest.distance, surroundings_.name(nearest.side->number)};
       return;
     }
-    check_piece(leg, middle - 0.5 * half, 0.5 * half, sides, near, number, report);
-    check_piece(leg, middle + 0.5 * half, 0.5 * half, sides, near, number, report);
+    check_piece(leg, middle - 0.5 * half, 0.5 * half, near, report);
+    check_piece(leg, middle + 0.5 * half, 0.5 * half, near, report);
   }
 
   const ObstacleIndex* index_;  // nullptr: all obstacles are passed over
@@ -339,72 +332,60 @@ class BodyVerifier {
   double close_ = 0.0;     // how sharp the least clearance shall be
 };
 
-constexpr double full_turn = 2.0 * std::numbers::pi;
+/// The same the other way round: of half a turn either may be meant, and both must be free.
+Leg turned_back(Leg leg) {
+  leg.turn -= std::copysign(2.0 * std::numbers::pi, leg.turn);
+  return leg;
+}
+
+/// The violation of a run that has one becomes that of the first leg that has one: by halving.
+void blame_leg(const BodyVerifier& body, std::span<const Se2> path, PoseRun run, const Sides& sides,
+               LegReport& report) {
+  while (run.legs() > 1) {
+    const std::size_t middle = run.first + run.legs() / 2;
+    const PoseRun earlier{run.first, middle};
+    const bool is_earlier = body.check(leg_of(path, earlier), sides).violation.has_value();
+    run = is_earlier ? earlier : PoseRun{middle, run.last};
+  }
+  const LegReport found = body.check(leg_of(path, run), sides);
+  if (found.violation) {
+    report.violation = found.violation;
+  } else {
+    report.violation->leg = run.first;
+  }
+}
 
 /// A path, cut into runs that are checked as one leg each.
-class PathCheck {
- public:
-  PathCheck(BodyVerifier& body, std::span<const Se2> path, const Execution& execution) : body_(body), path_(path) {
-    for (const PoseRun& run : pose_runs(path, body.bend(), execution)) add(run);
-    execution.reserve(runs_.size() * sizeof(Leg));
-    for (const PoseRun& run : runs_) legs_.push_back(leg_of(path, run));
-  }
-
-  LegReport check(double reach) {
-    return body_.check_all(
-        legs_, path_, reach, [&](std::size_t i) { return settle(runs_[i]); },
-        [&](std::size_t i, Sides& sides) { return check_run(i, sides); });
-  }
-
- private:
-  /// A run to or from where the body may not be goes leg by leg: one before may be the first to blame.
-  void add(const PoseRun& run) {
-    if (run.legs() < 2 || !settle(run).violation) return runs_.push_back(run);
-    for (std::size_t i = run.first; i < run.last; ++i) runs_.push_back({i, i + 1});
-  }
-
-  LegReport settle(const PoseRun& run) const {
-    LegReport report = body_.check_pose(path_[run.first], run.first);
-    report.add(body_.check_pose(path_[run.last], run.last - std::min<std::size_t>(run.legs(), 1)));
+LegReport check_runs(BodyVerifier& body, std::span<const Se2> path, const Execution& execution) {
+  constexpr double least_reach = 1e-9;  // the body may have no extent
+  const auto settle = [&](const PoseRun& run) {
+    LegReport report = body.check_pose(path[run.first], run.first);
+    report.add(body.check_pose(path[run.last], run.last - std::min<std::size_t>(run.legs(), 1)));
     return report;
-  }
-
-  /// A single leg of about half a turn is checked both ways round.
-  LegReport check_run(std::size_t number, Sides& sides) const {
-    const PoseRun& run = runs_[number];
-    const Leg& leg = legs_[number];
-    body_.gather(leg, sides);
-    LegReport report = blamed(run, body_.check(leg, sides, run.first), sides);
-    constexpr double nearly_half = 0.5 * full_turn * (1.0 - 1e-12);
-    if (std::abs(leg.turn) >= nearly_half) {
-      report.add(body_.check({leg.a, leg.way, leg.turn - std::copysign(full_turn, leg.turn)}, sides, run.first));
+  };
+  std::vector<PoseRun> runs;
+  for (const PoseRun& run : pose_runs(path, body.bend(), execution)) {
+    if (run.legs() < 2 || !settle(run).violation) {
+      runs.push_back(run);
+      continue;
     }
+    // To or from where the body may not be it goes leg by leg: one before may be the first to blame.
+    for (std::size_t i = run.first; i < run.last; ++i) runs.push_back({i, i + 1});
+  }
+  execution.reserve(runs.size() * sizeof(Leg));
+  std::vector<Leg> legs;
+  for (const PoseRun& run : runs) legs.push_back(leg_of(path, run));
+  const auto report_of = [&](std::size_t i, const Sides& sides) {
+    const Leg& leg = legs[i];
+    LegReport report = body.check(leg, sides);
+    if (report.violation && runs[i].legs() > 1) blame_leg(body, path, runs[i], sides, report);
+    constexpr double nearly_half = std::numbers::pi * (1.0 - 1e-12);
+    if (std::abs(leg.turn) >= nearly_half) report.add(body.check(turned_back(leg), sides));
     return report;
-  }
-
-  /// The report of a run, its violation that of the first leg that has one: by halving.
-  LegReport blamed(PoseRun run, LegReport report, const Sides& sides) const {
-    if (!report.violation || run.legs() < 2) return report;
-    while (run.legs() > 1) {
-      const std::size_t middle = run.first + run.legs() / 2;
-      const PoseRun earlier{run.first, middle};
-      const bool is_earlier = body_.check(leg_of(path_, earlier), sides, run.first).violation.has_value();
-      run = is_earlier ? earlier : PoseRun{middle, run.last};
-    }
-    const LegReport found = body_.check(leg_of(path_, run), sides, run.first);
-    if (found.violation) {
-      report.violation = found.violation;
-    } else {
-      report.violation->leg = run.first;
-    }
-    return report;
-  }
-
-  BodyVerifier& body_;
-  std::span<const Se2> path_;
-  std::vector<PoseRun> runs_;
-  std::vector<Leg> legs_;
-};
+  };
+  return body.check_all(
+      legs, path, least_reach, [&](std::size_t i) { return settle(runs[i]); }, report_of);
+}
 
 // Is this path of a car drivable, and free? Independent of everything that found it: no steering curve is computed
 // here, nothing from spatial/ is used. The path is a list of poses; between two of them the car keeps its steering
@@ -421,103 +402,38 @@ class PathCheck {
 /// May it back up?
 bool reverses(const RobotSpec& car) { return car.steering != SteeringKind::dubins; }
 
-class CarVerifier {
- public:
-  CarVerifier(const Scene& scene, const RobotSpec& car, std::span<const Se2> path, const PoseVerifyOptions& options,
-              const Execution& execution, const ObstacleIndex* index)
-      : car_(car),
-        path_(path),
-        outline_(car.outline.empty() ? std::vector<Vec2>{Vec2{}} : car.outline),
-        body_(scene, outline_, options.clearance + car.radius, small * car.turning_radius, execution, index) {
-    for (const Vec2 p : outline_) size_ = std::max(size_, norm(p));
-    execution.reserve(legs_of(path.size()) * (sizeof(CarLeg) + sizeof(Leg)));
-    double largest = 0.0;
-    for (std::size_t i = 0; i < legs_of(path.size()); ++i) {
-      legs_.push_back(car_leg_between(path[i], path[std::min(i + 1, path.size() - 1)]));
-      add_motion(i, motion_of(legs_.back()));
-      if (reverses(car) && legs_.back().is_half_turn()) {  // either way may be meant: both must be free
-        Leg other = motions_.back();
-        other.turn -= std::copysign(2.0 * std::numbers::pi, other.turn);
-        add_motion(i, other);
-      }
-      largest = std::max({largest, std::abs(path[i].x), std::abs(path[i].y)});
-    }
-    tolerance_ = small * car.turning_radius + 1e-14 * largest;
-  }
+constexpr double poses_off = 1e-9;  // in turning radii
 
-  LegReport check() {
-    const double reach = std::max(body_.least_reach(), 0.01 * car_.turning_radius);
-    return body_.check_all(
-        motions_, path_, reach, [&](std::size_t i) { return settle(i); },
-        [&](std::size_t i, Sides& sides) {
-          body_.gather(motions_[i], sides);
-          return body_.check(motions_[i], sides, leg_of_motion_[i]);
-        });
+/// Can the car drive the leg?
+std::optional<Violation> check_driving(const RobotSpec& car, const CarLeg& leg, std::size_t number, double tolerance) {
+  const auto bad = [&](std::string what) { return Violation{number, 0.0, std::move(what), ViolationKind::motion}; };
+  if (std::abs(leg.aside) > tolerance) {
+    return bad(fmt::format("leg: slides sideways by {}; between two poses a car keeps its steering", leg.aside));
   }
-  /// Length, turns and gears.
-  void measure(Verification& result) const {
-    int gear = 0;
-    for (const CarLeg& leg : legs_) {
-      result.length += leg.length;
-      result.turn_rad += std::abs(leg.turn);
-      if (leg.ahead < 0.0) result.reversed += leg.length;
-      if (leg.length <= tolerance_) continue;
-      const int now = leg.ahead < 0.0 ? -1 : 1;
-      if (gear == -now) ++result.cusps;
-      gear = now;
-    }
+  if (car.steering != SteeringKind::differential && leg.length + tolerance < car.turning_radius * std::abs(leg.turn)) {
+    return bad(fmt::format("turning radius: {} is below {}", leg.radius, car.turning_radius));
   }
+  if (!reverses(car) && leg.ahead < -tolerance) return bad(fmt::format("gear: goes backwards by {}", -leg.ahead));
+  return std::nullopt;
+}
 
- private:
-  static constexpr double small = 1e-9;  // what poses may be off by, in turning radii
+/// Length, turns and gears.
+void measure(std::span<const CarLeg> legs, double tolerance, Verification& result) {
+  int gear = 0;
+  for (const CarLeg& leg : legs) {
+    result.length += leg.length;
+    result.turn_rad += std::abs(leg.turn);
+    if (leg.ahead < 0.0) result.reversed += leg.length;
+    if (leg.length <= tolerance) continue;
+    const int now = leg.ahead < 0.0 ? -1 : 1;
+    if (gear == -now) ++result.cusps;
+    gear = now;
+  }
+}
 
-  LegReport settle(std::size_t motion) const {
-    const std::size_t i = leg_of_motion_[motion];
-    LegReport report;
-    report.violation = check_driving(legs_[i], i);
-    if (report.violation) report.least = report.met = 0.0;  // where it goes nobody knows
-    report.add(body_.check_pose(path_[i], i));
-    report.add(body_.check_pose(path_[std::min(i + 1, path_.size() - 1)], i));
-    return report;
-  }
-  /// Can the car drive it?
-  std::optional<Violation> check_driving(const CarLeg& leg, std::size_t number) const {
-    const auto bad = [&](std::string what) { return Violation{number, 0.0, std::move(what), ViolationKind::motion}; };
-    if (std::abs(leg.aside) > tolerance_) {
-      return bad(fmt::format("leg: slides sideways by {}; between two poses a car keeps its steering", leg.aside));
-    }
-    if (car_.steering != SteeringKind::differential &&
-        leg.length + tolerance_ < car_.turning_radius * std::abs(leg.turn)) {
-      return bad(fmt::format("turning radius: {} is below {}", leg.radius, car_.turning_radius));
-    }
-    if (!reverses(car_) && leg.ahead < -tolerance_) return bad(fmt::format("gear: goes backwards by {}", -leg.ahead));
-    return std::nullopt;
-  }
-  void add_motion(std::size_t leg, const Leg& motion) {
-    motions_.push_back(motion);
-    leg_of_motion_.push_back(leg);
-  }
-  /// Arcs that hardly bend go as straight ones.
-  Leg motion_of(const CarLeg& leg) const {
-    const double aside = std::abs(leg.aside);
-    if (leg.radius < 1e6 * car_.turning_radius) return {leg.a, leg.chord, leg.turn, true, aside};
-    return {leg.a, leg.chord, 0.0, true, aside + std::abs(leg.turn) * (leg.length + size_)};
-  }
-
-  const RobotSpec& car_;
-  std::span<const Se2> path_;
-  std::vector<Vec2> outline_;  // of a disc: its middle
-  BodyVerifier body_;
-  std::vector<CarLeg> legs_;
-  std::vector<Leg> motions_;
-  std::vector<std::size_t> leg_of_motion_;
-  double size_ = 0.0;  // of the body
-  double tolerance_ = 0.0;
-};
-
-/// Throws InputError unless a body has no corner (a disc) or at least three.
+/// Throws InputError unless a polygon has three corners or more, within the limits.
 void check_outline(std::span<const Vec2> outline) {
-  if (!outline.empty() && outline.size() < 3) throw InputError("robot", "a polygon needs three corners or more");
+  if (outline.size() < 3) throw InputError("robot", "a polygon needs three corners or more");
   for (const Vec2 p : outline) {
     if (std::abs(p.x) <= largest_coordinate && std::abs(p.y) <= largest_coordinate) continue;
     throw InputError("robot", "must have corners of at most 1e60", fmt::format("{} {}", p.x, p.y));
@@ -530,7 +446,7 @@ void check_car(const RobotSpec& car) {
   }
   check_not_negative("robot: radius", car.radius);
   if (!car.outline.empty() && car.radius > 0.0) throw InputError("robot", "is a disc or a polygon, not both");
-  check_outline(car.outline);
+  if (!car.outline.empty()) check_outline(car.outline);
 }
 
 /// Throws InputError for paths, options and scenes that no judge of bodies with a heading takes: unless there is a
@@ -554,7 +470,10 @@ void check_judged_poses(const Scene& scene, std::span<const Se2> path, const Pos
 WrongEnds wrong_ends(std::span<const Se2> path, const PoseVerifyOptions& options) {
   const auto wrong = [&](std::string_view which, const std::optional<Se2>& wanted, const Se2& end, bool any_heading,
                          std::size_t leg) {
-    if (!wanted || is_there(end, *wanted, any_heading, options.tolerance)) return std::optional<Violation>();
+    if (!wanted) return std::optional<Violation>();
+    const bool is_turned = !(std::abs(shorter_turn(end.theta, wanted->theta)) <= options.tolerance);
+    const bool is_off = portable::hypot(end.x - wanted->x, end.y - wanted->y) > options.tolerance;
+    if (!is_off && (any_heading || !is_turned)) return std::optional<Violation>();
     const std::array numbers{wanted->x, wanted->y, wanted->theta};
     const double off = distance(end.position(), wanted->position());
     return std::optional(elsewhere(which, std::span(numbers).first(any_heading ? 2 : 3), off, leg));
@@ -567,11 +486,10 @@ WrongEnds wrong_ends(std::span<const Se2> path, const PoseVerifyOptions& options
 
 Verification verify_se2(const Scene& scene, std::span<const Vec2> outline, std::span<const Se2> path,
                         const PoseVerifyOptions& options, const Execution& execution, const ObstacleIndex* index) {
-  if (outline.empty()) throw InputError("robot", "a polygon needs three corners or more");
   check_outline(outline);
   check_judged_poses(scene, path, options, execution);
   BodyVerifier body(scene, outline, options.clearance, 0.0, execution, index);
-  LegReport legs = PathCheck(body, path, execution).check(std::max(body.least_reach(), 1e-9));  // it may have no extent
+  LegReport legs = check_runs(body, path, execution);
   legs.least = std::max(legs.least, 0.0);
   Verification result = verdict_on(legs, wrong_ends(path, options));
   for (std::size_t i = 1; i < path.size(); ++i) {
@@ -585,11 +503,37 @@ Verification verify_car(const Scene& scene, const RobotSpec& car, std::span<cons
                         const PoseVerifyOptions& options, const Execution& execution, const ObstacleIndex* index) {
   check_car(car);
   check_judged_poses(scene, path, options, execution);
-  CarVerifier verifier(scene, car, path, options, execution, index);
-  LegReport legs = verifier.check();
-  legs.least = std::max(legs.least, 0.0) - car.radius;
-  Verification result = verdict_on(legs, wrong_ends(path, options));
-  verifier.measure(result);
+  const std::vector<Vec2> outline = car.outline.empty() ? std::vector<Vec2>{Vec2{}} : car.outline;
+  BodyVerifier body(scene, outline, options.clearance + car.radius, poses_off * car.turning_radius, execution, index);
+  double size = 0.0;
+  for (const Vec2 p : outline) size = std::max(size, norm(p));
+  execution.reserve(legs_of(path.size()) * (sizeof(CarLeg) + sizeof(Leg)));
+  std::vector<CarLeg> legs;
+  std::vector<Leg> motions;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < legs_of(path.size()); ++i) {
+    const CarLeg& leg = legs.emplace_back(car_leg_between(path[i], path[std::min(i + 1, path.size() - 1)]));
+    const bool bends = leg.radius < 1e6 * car.turning_radius;  // arcs that hardly do go as straight ones
+    const double blur = std::abs(leg.aside) + (bends ? 0.0 : std::abs(leg.turn) * (leg.length + size));
+    motions.push_back({leg.a, leg.chord, bends ? leg.turn : 0.0, true, blur, i});
+    if (reverses(car) && leg.is_half_turn()) motions.push_back(turned_back(motions.back()));
+    largest = std::max({largest, std::abs(path[i].x), std::abs(path[i].y)});
+  }
+  const double tolerance = poses_off * car.turning_radius + 1e-14 * largest;
+  const auto settle = [&](std::size_t motion) {
+    const std::size_t i = motions[motion].number;
+    LegReport report;
+    report.violation = check_driving(car, legs[i], i, tolerance);
+    if (report.violation) report.least = report.met = 0.0;  // where it goes nobody knows
+    report.add(body.check_pose(path[i], i));
+    report.add(body.check_pose(path[std::min(i + 1, path.size() - 1)], i));
+    return report;
+  };
+  LegReport report = body.check_all(motions, path, 0.01 * car.turning_radius, settle,
+                                    [&](std::size_t i, const Sides& sides) { return body.check(motions[i], sides); });
+  report.least = std::max(report.least, 0.0) - car.radius;
+  Verification result = verdict_on(report, wrong_ends(path, options));
+  measure(legs, tolerance, result);
   return result;
 }
 

@@ -18,17 +18,9 @@ std::size_t numbered(std::size_t count) {
   throw InputError("world", "has 2^32 walls and sides or more: too many to be indexed for its judge");
 }
 
-std::vector<Vec2> without_repetitions(const std::vector<Vec2>& corners) {
-  std::vector<Vec2> kept = corners;
-  kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
-  while (kept.size() > 1 && kept.front() == kept.back()) kept.pop_back();
-  return kept;
-}
-
 /// Is the inside right of the sides? Asked at the leftmost corner, the lowest of these: there the ring is convex.
 bool runs_clockwise(const std::vector<Vec2>& corners) {
-  const auto before = [](Vec2 p, Vec2 q) { return p.x < q.x || (p.x == q.x && p.y < q.y); };
-  const auto corner = std::min_element(corners.begin(), corners.end(), before);
+  const auto corner = std::ranges::min_element(corners, {}, [](Vec2 p) { return std::pair(p.x, p.y); });
   const Vec2 next = corner + 1 == corners.end() ? corners.front() : *(corner + 1);
   const Vec2 last = corner == corners.begin() ? corners.back() : *(corner - 1);
   return exact::side_of(last, *corner, next) < 0;
@@ -38,8 +30,6 @@ bool is_skew(Vec2 way) {
   const double less = std::min(std::abs(way.x), std::abs(way.y));
   return less > 0.0 && less < 1e-6 * std::max(std::abs(way.x), std::abs(way.y));
 }
-
-std::string numbers(const Segment& s) { return fmt::format("{} {} {} {}", s.a.x, s.a.y, s.b.x, s.b.y); }
 
 }  // namespace
 
@@ -116,9 +106,7 @@ LegBoxes::LegBoxes(std::span<const Vec2> path, const Execution& execution) : pat
   const std::size_t block_count = (leg_count() + 7) / 8;
   execution.reserve(block_count * sizeof(Box));
   RawVector<Box> blocks(block_count);
-  std::vector<double> lengths(chunk_count(blocks.size(), grain));
-  std::vector<char> skews(lengths.size());
-  for_chunks(blocks.size(), grain, execution, [&](Range r) {
+  const auto fill = [&](Range r) {
     double length = 0.0;
     bool skew = false;
     for (std::size_t block = r.first; block < r.last; ++block) {
@@ -132,11 +120,12 @@ LegBoxes::LegBoxes(std::span<const Vec2> path, const Execution& execution) : pat
       }
       blocks[block] = box;
     }
-    lengths[r.first / grain] = length;
-    skews[r.first / grain] = skew ? 1 : 0;
-  });
-  for (const double length : lengths) length_ += length;
-  has_skew_ = std::find(skews.begin(), skews.end(), 1) != skews.end();
+    return std::pair(length, skew);
+  };
+  for (const auto& [length, skew] : parts_of_chunks(block_count, grain, execution, fill)) {
+    length_ += length;
+    has_skew_ = has_skew_ || skew;
+  }
   build_on(std::move(blocks));
 }
 
@@ -155,18 +144,20 @@ void BoxBlocks::put_in_order(RawVector<Middle>& middles, const Execution& execut
   });
 }
 
-/// Of those that hold the place, the one whose middle is nearest.
-std::size_t BoxBlocks::nearest_part(std::size_t level, std::size_t first, std::size_t last, const Box& place) const {
-  const auto distance = [&](std::size_t part) {
-    const Box& box = levels_[level][part];
+/// Downwards by the nearest parts; of those that hold the place, by the one whose middle is nearest.
+std::size_t BoxBlocks::block_near(const Box& place) const {
+  const auto distance = [&](const Box& box) {
     const Vec2 off = (box.min - place.min) + (box.max - place.max);
     return std::pair(exact::gap_sq(box, place), dot(off, off));
   };
-  std::size_t nearest = first;
-  for (std::size_t part = first + 1; part < last; ++part) {
-    if (distance(part) < distance(nearest)) nearest = part;
+  std::size_t block = 0;
+  for (std::size_t level = levels_.size() - 1; level-- > 0;) {
+    const std::span<const Box> all = levels_[level];
+    const std::size_t first = block_size * block;
+    const auto parts = all.subspan(first, std::min(block_size, all.size() - first));
+    block = first + as_whole<std::size_t>(std::ranges::min_element(parts, {}, distance) - parts.begin());
   }
-  return nearest;
+  return block;
 }
 
 Obstacles::Obstacles(const Scene& scene) : scene_(scene) {
@@ -175,10 +166,12 @@ Obstacles::Obstacles(const Scene& scene) : scene_(scene) {
     rings_.push_back({{b.min, {b.min.x, b.max.y}, b.max, {b.max.x, b.min.y}}, Ring::none});
   }
   for (std::size_t i = 0; i < scene.polygons.size(); ++i) {
-    Ring ring{without_repetitions(scene.polygons[i].corners), i};
-    if (ring.corners.empty()) continue;
-    if (runs_clockwise(ring.corners)) std::reverse(ring.corners.begin(), ring.corners.end());
-    rings_.push_back(std::move(ring));
+    std::vector<Vec2> corners = scene.polygons[i].corners;
+    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+    while (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
+    if (corners.empty()) continue;
+    if (runs_clockwise(corners)) std::reverse(corners.begin(), corners.end());
+    rings_.push_back({std::move(corners), i});
   }
   for (std::size_t ring = 0; ring < rings_.size(); ++ring) {
     first_side_.push_back(sides_.size());
@@ -188,11 +181,11 @@ Obstacles::Obstacles(const Scene& scene) : scene_(scene) {
 }
 
 std::string Obstacles::name(std::size_t i) const {
-  if (i < wall_count()) return fmt::format("wall {}: {}", i, numbers(segment(i)));
-  const Side side = sides_[i - wall_count()];
-  const Ring& ring = rings_[side.ring];
-  if (ring.polygon == Ring::none) return fmt::format("bounds: {}", numbers(segment(i)));
-  return fmt::format("polygon {}: {}", ring.polygon, numbers(segment(i)));
+  const auto [a, b] = segment(i);
+  const std::string numbers = fmt::format("{} {} {} {}", a.x, a.y, b.x, b.y);
+  if (i < wall_count()) return fmt::format("wall {}: {}", i, numbers);
+  const std::size_t polygon = rings_[sides_[i - wall_count()].ring].polygon;
+  return polygon == Ring::none ? fmt::format("bounds: {}", numbers) : fmt::format("polygon {}: {}", polygon, numbers);
 }
 
 bool outline_holds(std::span<const Vec2> corners, Vec2 p, bool on_outline) {

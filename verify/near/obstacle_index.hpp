@@ -122,13 +122,7 @@ class LegBoxes : public BoxLevels {
   /// Does some leg run along an axis but for a millionth of its length?
   bool has_skew() const { return has_skew_; }
 
-  /// Calls visit(leg) for all legs but those in blocks whose box skip(box) says to leave out.
-  template <class Skip, class Visit>
-  void for_each(const Skip& skip, const Visit& visit) const {
-    for_each_block(skip, [&](std::size_t block) { for_each_in(block, visit); });
-  }
-
-  /// The second step after for_each_block(), for who asks several questions of one neighbourhood.
+  /// The second step after for_each_block(): visit(leg) for the legs of a block.
   template <class Visit>
   void for_each_in(std::size_t block, const Visit& visit) const {
     const std::size_t end = std::min(8 * (block + 1), leg_count());
@@ -198,13 +192,7 @@ class BoxBlocks : public BoxLevels {
   /// Calls visit(number) for some boxes that are rather near: a start for who looks for the nearest.
   template <class Visit>
   void for_some_near(const Box& place, const Visit& visit) const {
-    if (levels_.empty()) return;
-    std::size_t block = 0;
-    for (std::size_t level = levels_.size() - 1; level-- > 0;) {
-      const std::size_t first = block_size * block;
-      block = nearest_part(level, first, std::min(first + block_size, levels_[level].size()), place);
-    }
-    for_each_in(block, visit);
+    if (!levels_.empty()) for_each_in(block_near(place), visit);
   }
 
  private:
@@ -216,7 +204,7 @@ class BoxBlocks : public BoxLevels {
   static constexpr std::size_t grain = std::size_t{1} << 13;  ///< boxes: a multiple of block_size
 
   void put_in_order(RawVector<Middle>& middles, const Execution& execution);
-  std::size_t nearest_part(std::size_t level, std::size_t first, std::size_t last, const Box& place) const;
+  std::size_t block_near(const Box& place) const;
 
   RawVector<std::uint32_t> order_;  ///< numbers of the boxes, block by block
 };

@@ -164,8 +164,9 @@ PathScreen::PathScreen(const LegBoxes& legs, const Plan& plan, const Execution& 
     const Stripe marked{as_whole<std::int32_t>(r.first), as_whole<std::int32_t>(r.last)};
     const double left = (first_column_ + marked.first - 2) * cell_;
     const double right_end = (first_column_ + marked.last + 2) * cell_;
-    legs.for_each([&](const Box& around) { return around.max.x < left || around.min.x > right_end; },
-                  [&](std::size_t leg) { mark_leg(legs.leg(leg), marked); });
+    const auto mark = [&](std::size_t leg) { mark_leg(legs.leg(leg), marked); };
+    legs.for_each_block([&](const Box& around) { return around.max.x < left || around.min.x > right_end; },
+                        [&](std::size_t block) { legs.for_each_in(block, mark); });
   });
 }
 

@@ -25,6 +25,71 @@ auto meeting(std::span<const Box> boxes, const Execution& execution) {
   };
 }
 
+/// 64 cells of a row, from column 64 w on: which are blocked. What lies outside is.
+std::uint64_t blocked_word(const Bitmap& blocked, std::int64_t y, std::int64_t w) {
+  const std::int64_t words = (std::int64_t{blocked.width()} + 63) / 64;
+  if (y < 0 || y >= blocked.height() || w < 0 || w >= words) return ~std::uint64_t{0};
+  const std::uint64_t beyond =
+      w + 1 == words && blocked.width() % 64 != 0 ? ~std::uint64_t{0} << blocked.width() % 64 : 0;
+  return blocked.row(as_whole<std::uint32_t>(y))[as_whole<std::size_t>(w)] | beyond;
+}
+
+std::uint64_t number_of(const OccupancyMap& map, std::int64_t x, std::int64_t y) {
+  if (x < 0 || y < 0 || x >= map.width() || y >= map.height()) return NearSide::outside;
+  return as_whole<std::uint64_t>(y) * map.width() + as_whole<std::uint64_t>(x);
+}
+
+/// The borders below and left of those of 64 cells that are wanted.
+void gather_from_word(const OccupancyMap& map, std::int64_t y, std::int64_t w, std::uint64_t wanted,
+                      std::vector<NearSide>& sides, const Execution& execution) {
+  const auto point = [&](std::int64_t x, std::int64_t row) {
+    return world_point(map, {static_cast<double>(x), static_cast<double>(row)});
+  };
+  const std::int64_t base = 64 * w;
+  const std::uint64_t here = blocked_word(map.blocked, y, w);
+  const std::uint64_t left = here << 1 | blocked_word(map.blocked, y, w - 1) >> 63;
+  for (std::uint64_t rest = (here ^ left) & wanted; rest != 0 && y < map.height(); rest &= rest - 1) {
+    const std::int64_t x = base + std::countr_zero(rest);
+    const bool blocks = (here >> (x - base) & 1U) != 0;
+    push_asked(sides, {{point(x, y), point(x, y + 1)}, number_of(map, blocks ? x : x - 1, y)}, execution);
+  }
+  const std::uint64_t below = blocked_word(map.blocked, y - 1, w);
+  for (const bool blocks : {false, true}) {  // which of the two rows
+    std::uint64_t rest = (blocks ? here & ~below : below & ~here) & wanted;
+    while (rest != 0) {  // run by run
+      const int first = std::countr_zero(rest);
+      const int length = std::countr_one(rest >> first);
+      const std::int64_t x = base + first;
+      push_asked(sides, {{point(x, y), point(x + length, y)}, number_of(map, x, blocks ? y : y - 1)}, execution);
+      rest = first + length < 64 ? rest & ~std::uint64_t{0} << (first + length) : 0;
+    }
+  }
+}
+
+/// The borders between free and blocked cells, the ring of blocked ones around the map included.
+void gather_from_map(const OccupancyMap& map, const Box& box, std::vector<NearSide>& sides,
+                     const Execution& execution) {
+  Box in_cells;
+  for (const Vec2 corner : box.corners()) in_cells.include(map_point(map, corner));
+  const auto clamped = [](double x, double most) { return bounded_whole<std::int64_t>(x, 0.0, most); };
+  constexpr double rounding = 1e-6;  // cells
+  constexpr std::size_t words_a_poll = 4096;
+  const std::int64_t first_x = clamped(std::floor(in_cells.min.x - rounding), map.width());
+  const std::int64_t first_y = clamped(std::floor(in_cells.min.y - rounding), map.height());
+  const std::int64_t last_x = clamped(std::floor(in_cells.max.x + rounding), map.width());
+  const std::int64_t last_y = clamped(std::floor(in_cells.max.y + rounding), map.height());
+  std::size_t words = 0;
+  for (std::int64_t y = first_y; y <= last_y; ++y) {
+    for (std::int64_t w = first_x / 64; w <= last_x / 64; ++w) {
+      if (words++ % words_a_poll == 0) execution.check();
+      std::uint64_t wanted = ~std::uint64_t{0};
+      if (first_x > 64 * w) wanted <<= first_x - 64 * w;
+      if (last_x < 64 * w + 63) wanted &= (std::uint64_t{2} << (last_x - 64 * w)) - 1;
+      gather_from_word(map, y, w, wanted, sides, execution);
+    }
+  }
+}
+
 constexpr double most_turn_rad = 3.0;  // so that the run's turn is the shorter way between its ends, too
 
 /// All poses from first to last in one direction, and how far each of them is from the line.
@@ -86,7 +151,7 @@ void PathSurroundings::gather(std::span<const Box> boxes, std::vector<NearSide>&
                               const Execution& execution) const {
   sides.clear();
   if (scene_.map) {
-    for (const Box& box : boxes) gather_from_map(box, sides, execution);
+    for (const Box& box : boxes) gather_from_map(*scene_.map, box, sides, execution);
     return;
   }
   const auto is_asked = meeting(boxes, execution);
@@ -98,73 +163,6 @@ void PathSurroundings::gather(std::span<const Box> boxes, std::vector<NearSide>&
   const BoxBlocks& filed = index_ != nullptr ? index_->sides() : *near_sides_;
   filed.for_each([&](const Box& block) { return !is_asked(block); }, visit);
   std::sort(sides.begin(), sides.end(), [](const NearSide& a, const NearSide& b) { return a.number < b.number; });
-}
-
-/// 64 cells of a row, from column 64 w on: which are blocked. What lies outside is.
-std::uint64_t PathSurroundings::blocked_word(std::int64_t y, std::int64_t w) const {
-  const Bitmap& blocked = scene_.map->blocked;
-  const std::int64_t words = (std::int64_t{blocked.width()} + 63) / 64;
-  if (y < 0 || y >= blocked.height() || w < 0 || w >= words) return ~std::uint64_t{0};
-  const std::uint64_t beyond =
-      w + 1 == words && blocked.width() % 64 != 0 ? ~std::uint64_t{0} << blocked.width() % 64 : 0;
-  return blocked.row(as_whole<std::uint32_t>(y))[as_whole<std::size_t>(w)] | beyond;
-}
-
-std::uint64_t PathSurroundings::number_of(std::int64_t x, std::int64_t y) const {
-  const OccupancyMap& map = *scene_.map;
-  if (x < 0 || y < 0 || x >= map.width() || y >= map.height()) return NearSide::outside;
-  return as_whole<std::uint64_t>(y) * map.width() + as_whole<std::uint64_t>(x);
-}
-
-/// The borders between free and blocked cells, the ring of blocked ones around the map included.
-void PathSurroundings::gather_from_map(const Box& box, std::vector<NearSide>& sides, const Execution& execution) const {
-  const OccupancyMap& map = *scene_.map;
-  Box in_cells;
-  for (const Vec2 corner : box.corners()) in_cells.include(map_point(map, corner));
-  const auto clamped = [](double x, double most) { return bounded_whole<std::int64_t>(x, 0.0, most); };
-  constexpr double rounding = 1e-6;  // cells
-  constexpr std::size_t words_a_poll = 4096;
-  const std::int64_t first_x = clamped(std::floor(in_cells.min.x - rounding), map.width());
-  const std::int64_t first_y = clamped(std::floor(in_cells.min.y - rounding), map.height());
-  const std::int64_t last_x = clamped(std::floor(in_cells.max.x + rounding), map.width());
-  const std::int64_t last_y = clamped(std::floor(in_cells.max.y + rounding), map.height());
-  std::size_t words = 0;
-  for (std::int64_t y = first_y; y <= last_y; ++y) {
-    for (std::int64_t w = first_x / 64; w <= last_x / 64; ++w) {
-      if (words++ % words_a_poll == 0) execution.check();
-      std::uint64_t wanted = ~std::uint64_t{0};
-      if (first_x > 64 * w) wanted <<= first_x - 64 * w;
-      if (last_x < 64 * w + 63) wanted &= (std::uint64_t{2} << (last_x - 64 * w)) - 1;
-      gather_from_word(y, w, wanted, sides, execution);
-    }
-  }
-}
-
-/// The borders below and left of those of 64 cells that are wanted.
-void PathSurroundings::gather_from_word(std::int64_t y, std::int64_t w, std::uint64_t wanted,
-                                        std::vector<NearSide>& sides, const Execution& execution) const {
-  const auto point = [&](std::int64_t x, std::int64_t row) {
-    return world_point(*scene_.map, {static_cast<double>(x), static_cast<double>(row)});
-  };
-  const std::int64_t base = 64 * w;
-  const std::uint64_t here = blocked_word(y, w);
-  const std::uint64_t left = here << 1 | blocked_word(y, w - 1) >> 63;
-  for (std::uint64_t rest = (here ^ left) & wanted; rest != 0 && y < scene_.map->height(); rest &= rest - 1) {
-    const std::int64_t x = base + std::countr_zero(rest);
-    const bool blocks = (here >> (x - base) & 1U) != 0;
-    push_asked(sides, {{point(x, y), point(x, y + 1)}, number_of(blocks ? x : x - 1, y)}, execution);
-  }
-  const std::uint64_t below = blocked_word(y - 1, w);
-  for (const bool blocks : {false, true}) {  // which of the two rows
-    std::uint64_t rest = (blocks ? here & ~below : below & ~here) & wanted;
-    while (rest != 0) {  // run by run
-      const int first = std::countr_zero(rest);
-      const int length = std::countr_one(rest >> first);
-      const std::int64_t x = base + first;
-      push_asked(sides, {{point(x, y), point(x + length, y)}, number_of(x, blocks ? y : y - 1)}, execution);
-      rest = first + length < 64 ? rest & ~std::uint64_t{0} << (first + length) : 0;
-    }
-  }
 }
 
 std::string PathSurroundings::name(std::uint64_t number) const {
@@ -180,15 +178,10 @@ double shorter_turn(double a, double b) {
   return turn;
 }
 
-bool is_there(const Se2& pose, const Se2& wanted, bool any_heading, double tolerance) {
-  if (portable::hypot(pose.x - wanted.x, pose.y - wanted.y) > tolerance) return false;
-  return any_heading || std::abs(shorter_turn(pose.theta, wanted.theta)) <= tolerance;
-}
-
 Leg leg_of(std::span<const Se2> path, const PoseRun& run) {
   const Se2& a = path[run.first];
   const Se2& b = path[run.last];
-  return {a, b.position() - a.position(), shorter_turn(a.theta, b.theta)};
+  return {.a = a, .way = b.position() - a.position(), .turn = shorter_turn(a.theta, b.theta), .number = run.first};
 }
 
 std::vector<PoseRun> pose_runs(std::span<const Se2> path, double bend, const Execution& execution) {

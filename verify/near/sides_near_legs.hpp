@@ -51,12 +51,6 @@ class PathSurroundings : NotCopied {
   std::string name(std::uint64_t number) const;
 
  private:
-  void gather_from_map(const Box& box, std::vector<NearSide>& sides, const Execution& execution) const;
-  void gather_from_word(std::int64_t y, std::int64_t w, std::uint64_t wanted, std::vector<NearSide>& sides,
-                        const Execution& execution) const;
-  std::uint64_t blocked_word(std::int64_t y, std::int64_t w) const;
-  std::uint64_t number_of(std::int64_t x, std::int64_t y) const;
-
   const Scene& scene_;
   const std::optional<Obstacles> own_;  // without an index
   const Obstacles& obstacles_;
@@ -87,16 +81,14 @@ struct Leg {
   Vec2 way;
   double turn;
   bool is_arc = false;
-  double blur = 0.0;  ///< how far points of the body may be off that motion
+  double blur = 0.0;       ///< how far points of the body may be off that motion
+  std::size_t number = 0;  ///< what a violation calls it
 };
 /// The run as one leg, the shorter way round where it is a single one.
 Leg leg_of(std::span<const Se2> path, const PoseRun& run);
 
 /// The turn from a to b by which the body turns least; half turns may come out either way.
 double shorter_turn(double a, double b);
-
-/// Within tolerance of the place and, unless any heading will do, of the heading.
-bool is_there(const Se2& pose, const Se2& wanted, bool any_heading, double tolerance);
 
 /// The runs in their order, each of at most 1024 legs. The poses of a run that goes straight lie within `bend` of the
 /// line between its ends; a run that turns goes one way, less than 3 radians. Throws Stopped.

@@ -109,123 +109,104 @@ struct Run {
   std::size_t tile, first, last;
 };
 
+/// The cells up to `reach` around a leg.
+Cells cells_around(const CellWallSource& cells, const Segment& leg, double reach) {
+  const Box box = box_of(leg).grown(reach);
+  const auto cell = [](double x, std::uint32_t count) {
+    return bounded_whole<std::uint32_t>(x - 0.5, 0.0, count - 1.0);
+  };
+  return {cell(box.min.x, cells.cols()), cell(box.min.y, cells.rows()), cell(box.max.x, cells.cols()),
+          cell(box.max.y, cells.rows())};
+}
+
+/// A leg lengthens the runs of the leg before it where both come near few tiles; where they come near many, each has
+/// runs of its own.
+void add_runs(const CellWallSource& cells, Range tiles, const Cells& near, std::size_t leg, RawVector<Run>& runs,
+              const Execution& execution) {
+  constexpr std::size_t few = 4;
+  const unsigned shift = cells.side_log2();
+  const std::size_t recent = runs.size() - std::min(runs.size(), few);
+  for (std::size_t row = near.low_row >> shift; row <= near.high_row >> shift; ++row) {
+    for (std::size_t col = near.low_col >> shift; col <= near.high_col >> shift; ++col) {
+      const std::size_t tile = row * cells.tile_cols() + col;
+      if (tile < tiles.first || tile >= tiles.last) continue;
+      std::size_t i = runs.size();
+      while (i > recent && !(runs[i - 1].tile == tile && runs[i - 1].last + 1 == leg)) --i;
+      if (i > recent) {
+        runs[i - 1].last = leg;
+      } else {
+        push_asked(runs, Run{tile, leg, leg}, execution);
+      }
+    }
+  }
+}
+
+void compare_leg(const CellTile& tile, const BoxedSegment& leg, const Cells& near, Comparison& comparison) {
+  const auto local = [](std::uint32_t x, std::uint32_t first, std::uint32_t size) {
+    return std::clamp(std::ptrdiff_t{x} - std::ptrdiff_t{first}, std::ptrdiff_t{-1}, std::ptrdiff_t{size} - 1);
+  };
+  const std::ptrdiff_t last_row = local(near.high_row, tile.first_row, tile.height);
+  const std::ptrdiff_t last_col = local(near.high_col, tile.first_col, tile.width);
+  for (std::ptrdiff_t row = local(near.low_row, tile.first_row, tile.height) - 1; row <= last_row; ++row) {
+    for (std::ptrdiff_t col = local(near.low_col, tile.first_col, tile.width) - 1; col <= last_col; ++col) {
+      if (row < -1 || col < -1) continue;
+      const unsigned walls = tile.walls[tile.index(col, row)];
+      const auto with = [&](bool is_upper) {
+        const std::size_t wall = number_of(as_whole<std::uint32_t>(std::ptrdiff_t{tile.first_col} + col + 1),
+                                           as_whole<std::uint32_t>(std::ptrdiff_t{tile.first_row} + row + 1), is_upper);
+        comparison.with_leg(leg, {wall_of(wall), wall});
+      };
+      if ((walls & CellTile::right_wall) != 0 && row >= 0) with(false);
+      if ((walls & CellTile::upper_wall) != 0 && col >= 0) with(true);
+    }
+  }
+}
+
 /// One look at all legs, as far as `reach` around each.
-class LegsAmongCells {
- public:
-  LegsAmongCells(const CellWallSource& cells, Range tiles, const LegBoxes& legs, const VerifyOptions& options,
-                 double reach, const Execution& execution)
-      : cells_(cells), tiles_(tiles), legs_(legs), options_(options), reach_(reach), execution_(execution) {
-    file_legs();
+Tally compare_cells(const CellWallSource& cells, Range tiles, const LegBoxes& legs, const VerifyOptions& options,
+                    double reach, const Execution& execution) {
+  constexpr std::size_t legs_a_chunk = std::size_t{1} << 14;
+  constexpr std::size_t tiles_a_chunk = 4;  // a reader's scratch is large
+  const auto near = [&](std::size_t leg) { return cells_around(cells, legs.leg(leg), reach); };
+  const auto runs_in = [&](Range r) {
+    RawVector<Run> runs;
+    for (std::size_t leg = r.first; leg < r.last; ++leg) add_runs(cells, tiles, near(leg), leg, runs, execution);
+    return runs;
+  };
+  auto parts = parts_of_chunks(legs.leg_count(), legs_a_chunk, execution.quiet(), runs_in);
+  std::size_t total = 0;
+  for (const RawVector<Run>& part : parts) total += part.size();
+  execution.reserve(total * sizeof(Run));
+  RawVector<Run> runs;
+  runs.reserve(total);
+  for (RawVector<Run>& part : parts) {
+    runs.insert(runs.end(), part.begin(), part.end());
+    let_go(part);
   }
-
-  Tally compare() const {
-    constexpr std::size_t grain = 4;  // a reader's scratch is large
-    const auto compare = [&](Range r, Comparison& comparison) {
-      const auto reader = cells_.reader();
-      CellTile tile;
-      for (std::size_t i = r.first; i < r.last; ++i) {
-        execution_.check();
-        reader->read(runs_[passed_[i].first].tile, tile);
-        for (std::size_t run = passed_[i].first; run < passed_[i].last; ++run) {
-          for (std::size_t leg = runs_[run].first; leg <= runs_[run].last; ++leg) compare_leg(tile, leg, comparison);
-        }
-      }
-    };
-    return tally_chunks(passed_.size(), grain, options_, std::numeric_limits<double>::infinity(), execution_, compare);
+  // By tile, in the order of the path within each.
+  polled_sort(runs.begin(), runs.end(), execution,
+              [](const Run& a, const Run& b) { return std::tie(a.tile, a.first) < std::tie(b.tile, b.first); });
+  std::vector<Range> passed;  // the runs of each tile that has some
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (i == 0 || runs[i].tile != runs[i - 1].tile) push_asked(passed, {i, i}, execution);
+    passed.back().last = i + 1;
   }
-
- private:
-  /// The cells around a leg.
-  Cells around(std::size_t leg) const {
-    const Box box = box_of(legs_.leg(leg)).grown(reach_);
-    const auto cell = [](double x, std::uint32_t count) {
-      return bounded_whole<std::uint32_t>(x - 0.5, 0.0, count - 1.0);
-    };
-    return {cell(box.min.x, cells_.cols()), cell(box.min.y, cells_.rows()), cell(box.max.x, cells_.cols()),
-            cell(box.max.y, cells_.rows())};
-  }
-
-  /// A leg lengthens the runs of the leg before it where both come near few tiles; where they come near many, each has
-  /// runs of its own.
-  void add_runs(std::size_t leg, RawVector<Run>& runs) const {
-    constexpr std::size_t few = 4;
-    const Cells near = around(leg);
-    const unsigned shift = cells_.side_log2();
-    const std::size_t recent = runs.size() - std::min(runs.size(), few);
-    for (std::size_t row = near.low_row >> shift; row <= near.high_row >> shift; ++row) {
-      for (std::size_t col = near.low_col >> shift; col <= near.high_col >> shift; ++col) {
-        const std::size_t tile = row * cells_.tile_cols() + col;
-        if (tile < tiles_.first || tile >= tiles_.last) continue;
-        std::size_t i = runs.size();
-        while (i > recent && !(runs[i - 1].tile == tile && runs[i - 1].last + 1 == leg)) --i;
-        if (i > recent) {
-          runs[i - 1].last = leg;
-        } else {
-          push_asked(runs, Run{tile, leg, leg}, execution_);
+  const auto compare = [&](Range r, Comparison& comparison) {
+    const auto reader = cells.reader();
+    CellTile tile;
+    for (std::size_t i = r.first; i < r.last; ++i) {
+      execution.check();
+      reader->read(runs[passed[i].first].tile, tile);
+      for (std::size_t run = passed[i].first; run < passed[i].last; ++run) {
+        for (std::size_t leg = runs[run].first; leg <= runs[run].last; ++leg) {
+          compare_leg(tile, {legs.leg(leg), leg}, near(leg), comparison);
         }
       }
     }
-  }
-
-  /// Runs by tile, in the order of the path within each.
-  void file_legs() {
-    constexpr std::size_t grain = std::size_t{1} << 14;
-    auto parts = parts_of_chunks(legs_.leg_count(), grain, execution_.quiet(), [&](Range r) {
-      RawVector<Run> runs;
-      for (std::size_t leg = r.first; leg < r.last; ++leg) add_runs(leg, runs);
-      return runs;
-    });
-    std::size_t total = 0;
-    for (const RawVector<Run>& part : parts) total += part.size();
-    execution_.reserve(total * (sizeof(Run) + sizeof(Range)));
-    runs_.reserve(total);
-    for (RawVector<Run>& part : parts) {
-      runs_.insert(runs_.end(), part.begin(), part.end());
-      let_go(part);
-    }
-    const auto before = [](const Run& a, const Run& b) {
-      return std::tie(a.tile, a.first) < std::tie(b.tile, b.first);
-    };
-    polled_sort(runs_.begin(), runs_.end(), execution_, before);
-    for (std::size_t i = 0; i < runs_.size(); ++i) {
-      if (i == 0 || runs_[i].tile != runs_[i - 1].tile) push_asked(passed_, {i, i}, execution_);
-      passed_.back().last = i + 1;
-    }
-  }
-
-  void compare_leg(const CellTile& tile, std::size_t number, Comparison& comparison) const {
-    const BoxedSegment leg(legs_.leg(number), number);
-    const Cells near = around(leg.number);
-    const auto local = [](std::uint32_t x, std::uint32_t first, std::uint32_t size) {
-      return std::clamp(std::ptrdiff_t{x} - std::ptrdiff_t{first}, std::ptrdiff_t{-1}, std::ptrdiff_t{size} - 1);
-    };
-    const std::ptrdiff_t last_row = local(near.high_row, tile.first_row, tile.height);
-    const std::ptrdiff_t last_col = local(near.high_col, tile.first_col, tile.width);
-    for (std::ptrdiff_t row = local(near.low_row, tile.first_row, tile.height) - 1; row <= last_row; ++row) {
-      for (std::ptrdiff_t col = local(near.low_col, tile.first_col, tile.width) - 1; col <= last_col; ++col) {
-        if (row < -1 || col < -1) continue;
-        const unsigned walls = tile.walls[tile.index(col, row)];
-        const auto with = [&](bool is_upper) {
-          const std::size_t wall =
-              number_of(as_whole<std::uint32_t>(std::ptrdiff_t{tile.first_col} + col + 1),
-                        as_whole<std::uint32_t>(std::ptrdiff_t{tile.first_row} + row + 1), is_upper);
-          comparison.with_leg(leg, {wall_of(wall), wall});
-        };
-        if ((walls & CellTile::right_wall) != 0 && row >= 0) with(false);
-        if ((walls & CellTile::upper_wall) != 0 && col >= 0) with(true);
-      }
-    }
-  }
-
-  const CellWallSource& cells_;
-  const Range tiles_;
-  const LegBoxes& legs_;
-  const VerifyOptions& options_;
-  const double reach_;
-  const Execution& execution_;
-  RawVector<Run> runs_;        // by tile
-  std::vector<Range> passed_;  // the runs of each tile that has some
-};
+  };
+  constexpr double boundless = std::numeric_limits<double>::infinity();
+  return tally_chunks(passed.size(), tiles_a_chunk, options, boundless, execution, compare);
+}
 
 Violation described(const LegContact& found, const LegBoxes& legs, const Box& box) {
   if (found.obstacle == box_number) {
@@ -456,7 +437,7 @@ void JudgedPassages::read_row(std::ptrdiff_t col, std::ptrdiff_t row, std::span<
 NearestWalls nearest_among_cells(const CellWallSource& cells, Range tiles, std::span<const Vec2> path,
                                  const VerifyOptions& options, double reach, const Execution& execution) {
   const LegBoxes legs(path, execution);
-  const Tally tally = LegsAmongCells(cells, tiles, legs, options, reach, execution).compare();
+  const Tally tally = compare_cells(cells, tiles, legs, options, reach, execution);
   return {tally.least, tally.violation.leg, tally.violation.obstacle};
 }
 
@@ -474,7 +455,7 @@ Tally JudgeAmongCells::compared(const LegBoxes& legs) const {
   for (double reach = std::max(1.0, std::ceil(options_.reach() + 1e-6));; reach *= 2) {
     if (others_ != nullptr) others_->begin(legs.path(), reach);
     const Range tiles = others_ != nullptr ? others_->own_tiles() : Range{0, cells_.tile_count()};
-    Tally tally = LegsAmongCells(cells_, tiles, legs, options_, reach, execution_).compare();
+    Tally tally = compare_cells(cells_, tiles, legs, options_, reach, execution_);
     for (const NearestWalls& found : others_ != nullptr ? others_->take() : std::vector<NearestWalls>{}) {
       tally.least = std::min(tally.least, found.least);
       tally.violation = std::min(tally.violation, LegContact{found.leg, found.wall});

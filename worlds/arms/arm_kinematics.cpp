@@ -335,12 +335,11 @@ std::vector<JointState> postures_of_tool(const ArmKinematics& arm, const ToolGoa
       if (!variable.continuous) q[v] = std::clamp(q[v], variable.low, variable.high);
     }
     if (!search.descend(q)) continue;
-    const bool is_new =
-        std::none_of(found.begin(), found.end(), [&](const JointState& other) { return apart(other, q) <= 1e-6; });
-    if (is_new) found.push_back(q);
+    if (std::ranges::none_of(found, [&](const JointState& other) { return apart(other, q) <= 1e-6; })) {
+      found.push_back(q);
+    }
   }
-  std::stable_sort(found.begin(), found.end(),
-                   [&](const JointState& a, const JointState& b) { return away(a) < away(b); });
+  std::ranges::stable_sort(found, {}, away);
   return found;
 }
 

@@ -447,18 +447,6 @@ void copy_numbers(const std::vector<From>& from, std::vector<To>& to) {
   }
 }
 
-/// But for what stands for rounding.
-void copy_tables(const Doubles& from, ArmTables<float>& to) {
-  copy_numbers(from.frames, to.frames);
-  copy_numbers(from.hulls, to.hulls);
-  copy_numbers(from.balls, to.balls);
-  copy_numbers(from.obstacles, to.obstacles);
-  for (std::size_t row = 0; row < from.bounds.size(); ++row) copy_numbers(from.bounds[row], to.bounds[row]);
-  copy_numbers(from.reach, to.reach);
-  copy_numbers(from.pair_reach, to.pair_reach);
-  to.clearance = static_cast<float>(from.clearance);
-}
-
 }  // namespace
 
 ArmSetup::ArmSetup(const ArmModel& model, std::span<const Solid> obstacles, double room, double finest,
@@ -471,7 +459,14 @@ ArmSetup::ArmSetup(const ArmModel& model, std::span<const Solid> obstacles, doub
   builder.take_links(execution);
   builder.take_reaches();
   builder.take_obstacles(obstacles, execution);
-  copy_tables(doubles, floats);
+  copy_numbers(doubles.frames, floats.frames);
+  copy_numbers(doubles.hulls, floats.hulls);
+  copy_numbers(doubles.balls, floats.balls);
+  copy_numbers(doubles.obstacles, floats.obstacles);
+  for (std::size_t row = 0; row < floats.bounds.size(); ++row) copy_numbers(doubles.bounds[row], floats.bounds[row]);
+  copy_numbers(doubles.reach, floats.reach);
+  copy_numbers(doubles.pair_reach, floats.pair_reach);
+  floats.clearance = static_cast<float>(room);
   builder.take_slack(floats);
   constexpr float most_slack = 1e3F;  // of sizes up to 3e8, which floats tell apart by tens
   floats_hold = floats.slack < most_slack;

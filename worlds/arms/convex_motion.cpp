@@ -305,13 +305,7 @@ Vec3 ConvexBody::hull_support(const Vec3& direction, std::size_t& near) const {
 Vec3 ConvexBody::core_support(const Vec3& direction, std::size_t& near) const {
   if (!corners_.empty()) return hull_support(direction, near);
   Vec3 point = centre_;
-  for (std::size_t i = 0; i < edge_count_; ++i) {
-    if (direction.dot(edges_[i]) < 0.0) {
-      point -= edges_[i];
-    } else {
-      point += edges_[i];
-    }
-  }
+  for (std::size_t i = 0; i < edge_count_; ++i) point += (direction.dot(edges_[i]) < 0.0 ? -1.0 : 1.0) * edges_[i];
   if (is_round_) {
     const double x = direction.dot(rim_[0]);
     const double y = direction.dot(rim_[1]);

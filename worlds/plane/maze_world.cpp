@@ -36,25 +36,23 @@ class ClosedBy {
  public:
   ClosedBy(CellSides& cells, const Block& block, double r) : cells_(cells), block_(block), r_(r * surely_near) {}
 
-  void close(const Segment& wall) const {
-    if (std::abs(wall.a.x - wall.b.x) < 2.0 * r_) close_along(wall, wall.a.x, wall.b.x, wall.a.y, wall.b.y, 0);
-    if (std::abs(wall.a.y - wall.b.y) < 2.0 * r_) close_along(wall, wall.a.y, wall.b.y, wall.a.x, wall.b.x, 1);
-  }
-
- private:
-  /// across: coordinates of the ends on the axis on which the sides lie apart; along: on the other one.
-  void close_along(const Segment& wall, double across_a, double across_b, double along_a, double along_b,
-                   int axis) const {
-    const double origin = axis == 0 ? cells_.corner.x : cells_.corner.y;
-    const double start = axis == 0 ? cells_.corner.y : cells_.corner.x;
-    const double line = std::round(0.5 * (across_a + across_b) - origin);
+  /// The sides of one axis.
+  void close(const Segment& wall, int axis) const {
+    // On the axis on which the sides lie apart, and on the other one.
+    const auto across_of = [axis](Vec2 p) { return axis == 0 ? p.x : p.y; };
+    const auto along_of = [axis](Vec2 p) { return axis == 0 ? p.y : p.x; };
+    if (!(std::abs(across_of(wall.a) - across_of(wall.b)) < 2.0 * r_)) return;
+    const double start = along_of(cells_.corner);
+    const double line = std::round(0.5 * (across_of(wall.a) + across_of(wall.b)) - across_of(cells_.corner));
     const double lines = axis == 0 ? cells_.cols : cells_.rows;
     const Range& across = axis == 0 ? block_.cols : block_.rows;
     const Range& along = axis == 0 ? block_.rows : block_.cols;
     if (line < 1.0 || line > lines - 1.0) return;
     if (line < static_cast<double>(across.first) || line > static_cast<double>(across.last)) return;
-    const double from = std::max(std::min(along_a, along_b) - r_ - start, static_cast<double>(along.first));
-    const double to = std::min(std::max(along_a, along_b) + r_ - start, static_cast<double>(along.last));
+    const double from =
+        std::max(std::min(along_of(wall.a), along_of(wall.b)) - r_ - start, static_cast<double>(along.first));
+    const double to =
+        std::min(std::max(along_of(wall.a), along_of(wall.b)) + r_ - start, static_cast<double>(along.last));
     bool was_near = false;
     for (double place = std::ceil(from); place <= to; place += 1.0) {
       const Vec2 end = axis == 0 ? cells_.corner + Vec2{line, place} : cells_.corner + Vec2{place, line};
@@ -64,6 +62,8 @@ class ClosedBy {
       was_near = is_near;
     }
   }
+
+ private:
   /// The side on line `line`, >= 1, at place `place` of it.
   void close_side(int axis, std::size_t line, std::size_t place) const {
     const std::size_t col = axis == 0 ? line : place;
@@ -107,7 +107,7 @@ void close_sides(const WallIndex& walls, const Block& block, double clearance, C
   };
   const Box box{corner(block.cols.first, block.rows.first), corner(block.cols.last, block.rows.last)};
   walls.for_each_near(box.grown(clearance), [&](const Segment& wall) {
-    closed.close(wall);
+    for (const int axis : {0, 1}) closed.close(wall, axis);
     return true;
   });
 }
@@ -144,17 +144,6 @@ double free_width(const WallIndex& index, const Box& box, const Segment& wall, d
   if (width == 0.0 || width > 2.0 * step) return width;
   constexpr double aside = 0.381966;  // a wall that ends in the middle of this one is not across the way
   return look(index, box, wall.a + aside * along, normal, step, execution);
-}
-
-/// What so many walls in such a box are worth, however long the box is: what a square as broad as the box would need,
-/// since a long world of few walls is no harder than the same one pushed together, or some samples for each wall, since
-/// a long corridor may have a cell for each.
-double most_samples_for(const Box& box, double width, double clearance, std::size_t walls) {
-  constexpr double least = 500.0;
-  constexpr double samples_a_wall = 16.0;
-  const double breadth = std::min(box.width(), box.height());
-  return std::max(samples_for_width(width, breadth * breadth, clearance),
-                  least + samples_a_wall * static_cast<double>(walls));
 }
 
 }  // namespace
@@ -213,9 +202,16 @@ std::uint32_t MazeWorld::free_states(std::span<const State> states, Query& query
 }
 
 double MazeWorld::suggested_samples(const Execution& execution) const {
+  constexpr double least = 500.0;
+  constexpr double samples_a_wall = 16.0;
   const double width = typical_width(index_, box_, nullptr, execution);
-  return std::min(samples_for_width(width, sampled_area(), clearance_),
-                  most_samples_for(box_, width, clearance_, index_.wall_count()));
+  // What so many walls in such a box are worth, however long the box is: what a square as broad as the box would need,
+  // since a long world of few walls is no harder than the same one pushed together, or some samples for each wall,
+  // since a long corridor may have a cell for each.
+  const double breadth = std::min(box_.width(), box_.height());
+  const double most = std::max(samples_for_width(width, breadth * breadth, clearance_),
+                               least + samples_a_wall * static_cast<double>(index_.wall_count()));
+  return std::min(samples_for_width(width, sampled_area(), clearance_), most);
 }
 
 CellSides MazeWorld::cell_sides(std::size_t most_cells, const Execution& execution) const {

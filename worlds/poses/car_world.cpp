@@ -11,9 +11,12 @@
 namespace warren {
 namespace {
 
-/// What planning keeps beyond what it must: a factor, and what the poses of a curve are rounded by.
-double planning_reach(const CarOptions& options) {
+/// What planning keeps: beyond what it must a factor, and what the poses of a curve are rounded by. Throws InputError
+/// for what is out of range.
+double checked_reach(const CarOptions& options, const Execution& execution) {
   constexpr double more = 1e-9;
+  if (!options.outline.empty()) check_body(options.outline, "robot", execution);
+  checked_length("robot: turning radius", options.turning_radius, false);
   const double asked = checked_clearance(options.clearance) +
                        (options.outline.empty() ? checked_length("robot: radius", options.radius, true) : 0.0);
   return asked * (1.0 + more) + more * options.turning_radius;
@@ -25,21 +28,13 @@ double resolution_of(const CarOptions& options) {
   return share * (size > 0.0 ? size : options.turning_radius);
 }
 
-/// Throws InputError for what is out of range.
-const CarOptions& checked_car(const CarOptions& options, const Execution& execution) {
-  if (!options.outline.empty()) check_body(options.outline, "robot", execution);
-  checked_length("robot: turning radius", options.turning_radius, false);
-  planning_reach(options);
-  return options;
-}
-
 constexpr double as_good = 1e-9;  // in turning radii: what is shorter by less is as long
 
 }  // namespace
 
 CarBody::CarBody(const Scene& scene, const CarOptions& options, const Execution& execution)
     : BodyAmongObstacles(scene, options.outline.empty() ? std::vector{Vec2{}} : options.outline,
-                         planning_reach(checked_car(options, execution)), options.turning_radius, "car", execution),
+                         checked_reach(options, execution), options.turning_radius, "car", execution),
       turning_radius_(options.turning_radius),
       resolution_(resolution_of(options)) {}
 

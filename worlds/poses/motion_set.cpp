@@ -39,10 +39,6 @@ std::vector<Vector> heading_vectors(std::uint32_t headings) {
 
 double norm_of(const Vector& v) { return std::sqrt(1.0 * v[0] * v[0] + 1.0 * v[1] * v[1]); }
 
-std::int64_t cross_of(const Vector& a, const Vector& b) {
-  return std::int64_t{a[0]} * b[1] - std::int64_t{a[1]} * b[0];
-}
-
 /// The way back: of a turn on the spot the other one.
 SteeringWord reversed(const SteeringWord& word) {
   SteeringWord back;
@@ -73,9 +69,8 @@ std::vector<Vector> swept_cells(const MotionSet& motions, const MotionShape& sha
     const double above = std::max({box.min.y - seen.y, seen.y - box.max.y, 0.0});
     const double at_least = std::sqrt(aside * aside + above * above) - half_diagonal - reach;
     if (at_least > enough) return at_least;
-    std::array<Vec2, 4> square;
-    constexpr std::array<Vec2, 4> corners{{{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}};
-    for (std::size_t i = 0; i < 4; ++i) square[i] = seen + turned(corners[i]);
+    std::array<Vec2, 4> square = Box{{-0.5, -0.5}, {0.5, 0.5}}.corners();
+    for (Vec2& p : square) p = seen + turned(p);
     return distance(outline, square) - reach;
   };
   const auto is_clear_of = [&](Vec2 middle) {
@@ -111,9 +106,7 @@ MotionSet::MotionSet(const MotionSetOptions& options, const Execution& execution
 
 std::uint32_t MotionSet::nearest_heading(double radians) const {
   const auto off = [&](double heading) { return std::abs(turn_between(radians, heading)); };
-  const auto nearest =
-      std::min_element(radians_.begin(), radians_.end(), [&](double a, double b) { return off(a) < off(b); });
-  return as_whole<std::uint32_t>(nearest - radians_.begin());
+  return as_whole<std::uint32_t>(std::ranges::min_element(radians_, {}, off) - radians_.begin());
 }
 
 std::uint64_t MotionSet::cost_of(const SteeringWord& word) const {
@@ -156,8 +149,7 @@ void MotionSet::add_turns(std::uint32_t from, std::uint32_t to) {
   const Vector& w = vectors_[to];
   const double turn = warren::turn_between(radians_[from], radians_[to]);
   const double tangent = options_.turning_radius * portable::tan(0.5 * std::abs(turn));
-  const std::int64_t cells = cross_of(v, w);
-  const std::int64_t parts = std::abs(cells);
+  const std::int64_t parts = std::abs(std::int64_t{v[0]} * w[1] - std::int64_t{v[1]} * w[0]);
   const auto least = [&](const Vector& u) {
     return bounded_whole<std::int64_t>(std::ceil(tangent / norm_of(u) * static_cast<double>(parts)));
   };
@@ -258,34 +250,29 @@ SweptStamps::SweptStamps(const MotionSet& motions, std::span<const Vec2> outline
   auto touched = parts_of_chunks(shapes.size(), 1, execution.quiet(), [&](Range r) {
     return swept_cells(motions, shapes[r.first], outline, reach, execution);
   });
+  constexpr std::int32_t bits = 64;
   for (std::vector<Vector>& cells : touched) {
     for (std::uint32_t quarters = 0; quarters < 4; ++quarters) {
-      add(cells);
-      for (Vector& cell : cells) cell = {-cell[1], cell[0]};
+      std::ranges::sort(cells, {}, [](const Vector& cell) { return std::pair(cell[1], cell[0]); });
+      Stamp stamp{rows_.size(), 0, 0, 0, 0, 0};
+      for (const auto& [x, y] : cells) {
+        stamp.min_x = std::min(stamp.min_x, x);
+        stamp.max_x = std::max(stamp.max_x, x);
+        stamp.min_y = std::min(stamp.min_y, y);
+        stamp.max_y = std::max(stamp.max_y, y);
+        const bool fits = rows_.size() > stamp.first && rows_.back().y == y && x - rows_.back().x < bits;
+        if (!fits) rows_.push_back({x, y, 0});
+        rows_.back().bits |= std::uint64_t{1} << as_whole<unsigned>(x - rows_.back().x);
+      }
+      stamp.last = rows_.size();
+      stamps_.push_back(stamp);
+      for (Vector& cell : cells) cell = turned(cell, 1);
     }
   }
 }
 
-void SweptStamps::add(std::vector<Vector> cells) {
-  constexpr std::int32_t bits = 64;
-  std::sort(cells.begin(), cells.end(),
-            [](const Vector& a, const Vector& b) { return a[1] != b[1] ? a[1] < b[1] : a[0] < b[0]; });
-  Stamp stamp{rows_.size(), 0, 0, 0, 0, 0};
-  for (const auto& [x, y] : cells) {
-    stamp.min_x = std::min(stamp.min_x, x);
-    stamp.max_x = std::max(stamp.max_x, x);
-    stamp.min_y = std::min(stamp.min_y, y);
-    stamp.max_y = std::max(stamp.max_y, y);
-    const bool fits = rows_.size() > stamp.first && rows_.back().y == y && x - rows_.back().x < bits;
-    if (!fits) rows_.push_back({x, y, 0});
-    rows_.back().bits |= std::uint64_t{1} << as_whole<unsigned>(x - rows_.back().x);
-  }
-  stamp.last = rows_.size();
-  stamps_.push_back(stamp);
-}
-
 bool SweptStamps::is_free(const FreeCells& map, Cell from, const LatticeMotion& motion) const {
-  const Stamp& stamp = of(motion);
+  const Stamp& stamp = stamps_[4 * motion.shape + motion.quarter_turns];
   std::int64_t x = from.x;
   std::int64_t y = from.y;
   if (motion.gear < 0) {  // its shape begins where it ends

@@ -118,8 +118,6 @@ class SweptStamps {
     std::size_t last;
     std::int32_t min_x, min_y, max_x, max_y;
   };
-  void add(std::vector<std::array<std::int32_t, 2>> cells);
-  const Stamp& of(const LatticeMotion& motion) const { return stamps_[4 * motion.shape + motion.quarter_turns]; }
 
   std::vector<Stamp> stamps_;  // of each shape, its quarter turns after each other
   std::vector<Row> rows_;

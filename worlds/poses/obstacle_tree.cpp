@@ -85,11 +85,6 @@ bool stays_before(const Footprint& body, double time, Vec2 p, Vec2 outward, doub
   return true;
 }
 
-double largest_coordinate_of(const Box& box) {
-  if (box.empty()) return 0.0;
-  return std::max({std::abs(box.min.x), std::abs(box.max.x), std::abs(box.min.y), std::abs(box.max.y)});
-}
-
 /// Thing: a segment or a polygon's corners.
 template <class Thing>
 BoxTree<2> tree_around(const std::vector<Thing>& things, const Execution& execution) {
@@ -120,7 +115,9 @@ ObstacleTree::ObstacleTree(const Scene& scene, double reach, const Execution& ex
   Box all = box_;
   if (bounds_) all.include(*bounds_);
   if (scene.map) all.include(world_box(*scene.map));
-  rounding_ = relative * (largest_coordinate_of(all) + 2.0 * reach);
+  double largest = 0.0;
+  for (const Vec2 p : all.corners()) largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
+  rounding_ = relative * ((all.empty() ? 0.0 : largest) + 2.0 * reach);
   std::vector<Segment> sides;
   std::vector<std::span<const Vec2>> convex;
   std::vector<std::span<const Vec2>> others;

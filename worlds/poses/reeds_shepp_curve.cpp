@@ -93,18 +93,15 @@ class Shortest {
 };
 
 /// All words up to a length.
-class All {
- public:
-  All(double longest, const std::function<void(const SteeringWord&)>& visit) : longest_(longest), visit_(visit) {}
-  /// Bounds are sums of other roundings than lengths.
-  bool worth(double at_least) const { return at_least <= longest_ + 1e-12 * longest_; }
-  void take(double length, const SteeringWord& word) {
-    if (length <= longest_) visit_(word);
-  }
+struct All {
+  double longest;
+  const std::function<void(const SteeringWord&)>& visit;
 
- private:
-  double longest_;
-  const std::function<void(const SteeringWord&)>& visit_;
+  /// Bounds are sums of other roundings than lengths.
+  bool worth(double at_least) const { return at_least <= longest + 1e-12 * longest; }
+  void take(double length, const SteeringWord& word) const {
+    if (length <= longest) visit(word);
+  }
 };
 
 /// Hands the words to a goal, as far as they are worth it, to the taker.
@@ -281,7 +278,7 @@ SteeringWord ReedsSheppCurve::shortest(const Se2& a, const Se2& b, double turnin
 
 void ReedsSheppCurve::for_each_word(const Se2& a, const Se2& b, double turning_radius, double longest,
                                     const std::function<void(const SteeringWord&)>& visit) {
-  All all(longest, visit);
+  All all{longest, visit};
   Enumeration<All>(seen_from(a, b, turning_radius), off_by_rounding(a, b, turning_radius), all);
 }
 

@@ -222,8 +222,7 @@ double squared_distance(const MapPrices::Site& site, Vec2 p) {
 bool hides(const MapPrices::Site& a, const MapPrices::Site& b, Cell cell) {
   if (a.dx == 0.0) return a.dy == b.dy && a.dy * (b.at.y - a.at.y) >= 0.0;
   if (a.dy == 0.0) return a.dx == b.dx && a.dx * (b.at.x - a.at.x) >= 0.0;
-  for (const auto& [x, y] : {Vec2{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}, {1.0, 1.0}}) {
-    const Vec2 corner{cell.x + x, cell.y + y};
+  for (const Vec2 corner : Box{{cell.x + 0.0, cell.y + 0.0}, {cell.x + 1.0, cell.y + 1.0}}.corners()) {
     if (squared_distance(b, corner) < squared_distance(a, corner)) return false;
   }
   return true;
@@ -323,7 +322,7 @@ OccupancyMap effective_map(const OccupancyMap& map, const Prices& prices, const 
   OccupancyMap effective = map;
   if (prices.opens_unknown()) effective.blocked.remove(map.unknown);
   Bitmap forbidden = cell_bitmap(map.width(), map.height(), execution);
-  for (const KeepOut& area : prices.keep_out) {
+  for (const ScenePolygon& area : prices.keep_out) {
     std::vector<Vec2> corners;
     for (const Vec2 p : area.corners) corners.push_back(corner_in_cells(map, p));
     add_polygon_cells(forbidden, corners, execution);
@@ -343,7 +342,7 @@ Scene restricted_scene(const Scene& scene, const Prices& prices, const Execution
     restricted.map = effective_map(*scene.map, prices, execution);
     return restricted;
   }
-  for (const KeepOut& area : prices.keep_out) restricted.polygons.push_back({area.corners, area.line});
+  for (const ScenePolygon& area : prices.keep_out) restricted.polygons.push_back(area);
   for_mask_cells(prices, execution, [&](const MaskCells& cells, std::uint32_t x, std::uint32_t y, const auto& factor) {
     if (factor) return;
     const std::array<Vec2, 4> square = mask_square_in_world(cells, x, y);
@@ -442,8 +441,7 @@ MapPrices::MapPrices(const OccupancyMap& effective, double radius, const Prices&
     const double open = 2.0 * (reach_ + half_diagonal);  // squares are halves of cells
     open_sq_ = bounded_whole<std::uint32_t>(std::ceil(open * open));
   }
-  has_areas_ = unknown_ > 1.0 || !areas_.empty();
-  if (!has_areas_) return;
+  if (!(unknown_ > 1.0) && areas_.empty()) return;
   touched_ = cell_bitmap(map_.width(), map_.height(), execution);
   for (const AreaFactors::Area& area : areas_.areas()) add_polygon_cells(touched_, area.corners, execution);
   for_mask_cells(prices, execution, [&](const MaskCells& cells, std::uint32_t x, std::uint32_t y, const auto& factor) {
@@ -510,9 +508,8 @@ std::span<const MapPrices::Site> MapPrices::sites(Cell cell, Scratch& scratch) c
     if (x - left <= far) take(left + 1, edge_y, -1, dy);
   }
   if (kept.sites.size() > 1) {
-    const Site first = *std::min_element(kept.sites.begin(), kept.sites.end(), [&](const Site& a, const Site& b) {
-      return squared_distance(a, middle) < squared_distance(b, middle);
-    });
+    const Site first =
+        *std::ranges::min_element(kept.sites, {}, [&](const Site& site) { return squared_distance(site, middle); });
     std::erase_if(kept.sites, [&](const Site& site) {
       const bool is_first = site.at.x == first.at.x && site.at.y == first.at.y;
       return !is_first && hides(first, site, cell);
@@ -570,7 +567,7 @@ PriceParts MapPrices::parts(Vec2 a, Vec2 b, Scratch& scratch) const {
   const Vec2 q = map_point(map_, b);
   PriceParts parts;
   if (reach_ > 0.0) parts.clearance = map_.cell * price_ * nearness(p, q, scratch);
-  if (has_areas_) parts.areas = map_.cell * areas(p, q, scratch);
+  if (!touched_.empty()) parts.areas = map_.cell * areas(p, q, scratch);
   return parts;
 }
 
@@ -686,10 +683,9 @@ double NearnessSum::integral(std::span<const StretchDistance> things, double fro
   double sum = 0.0;
   for (std::size_t c = 1; c < cuts_.size(); ++c) {
     const double middle = 0.5 * (cuts_[c - 1] + cuts_[c]);
-    const auto nearest = std::min_element(near_.begin(), near_.end(), [&](const auto& one, const auto& other) {
-      return squared(one, middle) < squared(other, middle);
-    });
-    if (squared(*nearest, middle) < reach * reach) sum += integral_of_one(*nearest, cuts_[c - 1], cuts_[c], reach);
+    const auto off_sq = [middle](const StretchDistance& thing) { return squared(thing, middle); };
+    const auto nearest = std::ranges::min_element(near_, {}, off_sq);
+    if (off_sq(*nearest) < reach * reach) sum += integral_of_one(*nearest, cuts_[c - 1], cuts_[c], reach);
   }
   return sum;
 }

@@ -153,7 +153,7 @@ class MapPrices {
   /// Distances to the map's blocked squares and its outside; nullptr where nearness costs nothing.
   const DistanceField* distances() const { return field_ ? &*field_ : nullptr; }
   /// Does any leg cost more than its length?
-  bool is_priced() const { return reach_ > 0.0 || has_areas_; }
+  bool is_priced() const { return reach_ > 0.0 || !touched_.empty(); }
   /// Of a straight leg of the middle that touches nothing blocked, world coordinates.
   PriceParts parts(Vec2 a, Vec2 b, Scratch& scratch) const;
   /// The leg's length and what it costs beyond.
@@ -169,7 +169,7 @@ class MapPrices {
   double areas(Vec2 a, Vec2 b, Scratch& scratch) const;
   double areas_in(Vec2 p, Vec2 u, double length, Scratch& scratch) const;
   double half_step(Cell cell, unsigned direction, Scratch& scratch) const;
-  bool is_near_area(Cell cell) const { return has_areas_ && touched_.holds(cell.x, cell.y); }
+  bool is_near_area(Cell cell) const { return touched_.holds(cell.x, cell.y); }
 
   std::uint64_t number_ = fresh_number();
   const OccupancyMap& map_;
@@ -179,8 +179,7 @@ class MapPrices {
   std::optional<DistanceField> field_;
   AreaFactors areas_;  // in cells
   double unknown_ = 1.0;
-  bool has_areas_ = false;
-  Bitmap touched_;  // cells in which some factor may be above 1
+  Bitmap touched_;  // cells in which some factor may be above 1; empty: in none
 };
 
 // What straight legs cost among walls, outlines of polygons and bounds: as among cells, with segments instead of

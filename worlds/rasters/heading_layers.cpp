@@ -271,76 +271,55 @@ void or_from(std::span<const std::uint64_t> from, std::size_t first, std::span<s
   for (std::size_t w = 0; w < to.size(); ++w) to[w] |= words[w] >> shift | words[w + 1] << (64 - shift);
 }
 
-/// Widens a bitmap by a stamp.
-class Widening {
- public:
-  Widening(const Bitmap& blocked, const Stamp& stamp)
-      : blocked_(blocked), stamp_(stamp), result_(blocked.width(), blocked.height()) {
-    const int reach = std::max({-stamp.least_x, stamp.most_x, stamp.widest});
-    margin_ = (as_whole<std::size_t>(reach) / 64 + 1) * 64;
-    const std::size_t words = blocked.row(0).size() + 2 * (margin_ / 64) + 2;
-    const auto widest = as_whole<unsigned>(stamp.widest);
-    doubled_.assign(as_whole<std::size_t>(std::bit_width(widest)), std::vector<std::uint64_t>(words, 0));
+/// doubled[n] bit t: is any of the row's bits t .. t + 2^n - 1 set? The row begins at bit 64 * margin.
+void double_row(std::span<const std::uint64_t> row, std::size_t margin,
+                std::vector<std::vector<std::uint64_t>>& doubled) {
+  std::copy(row.begin(), row.end(), doubled[0].begin() + as_whole<std::ptrdiff_t>(margin));
+  for (std::size_t n = 1; n < doubled.size(); ++n) {
+    std::vector<std::uint64_t>& wide = doubled[n];
+    wide = doubled[n - 1];
+    const std::size_t by = std::size_t{1} << (n - 1);
+    const std::size_t words = wide.size() - by / 64 - 1;
+    or_from(doubled[n - 1], by, std::span(wide).first(words));
   }
+}
 
-  Bitmap run(const Execution& execution) {
-    for (std::uint32_t y = 0; y < blocked_.height(); ++y) {
-      execution.check();
-      const auto row = blocked_.row(y);
-      if (std::any_of(row.begin(), row.end(), [](std::uint64_t word) { return word != 0; })) widen_row(y);
-    }
-    result_.clear_beyond_width();
-    block_border();
-    return std::move(result_);
-  }
-
- private:
-  /// doubled_[n] bit t: is any of the row's bits t .. t + 2^n - 1 set? The row begins at bit margin_.
-  void double_row(std::uint32_t y) {
-    const auto row = blocked_.row(y);
-    std::copy(row.begin(), row.end(), doubled_[0].begin() + as_whole<std::ptrdiff_t>(margin_ / 64));
-    for (std::size_t n = 1; n < doubled_.size(); ++n) {
-      std::vector<std::uint64_t>& wide = doubled_[n];
-      wide = doubled_[n - 1];
-      const std::size_t by = std::size_t{1} << (n - 1);
-      const std::size_t words = wide.size() - by / 64 - 1;
-      or_from(doubled_[n - 1], by, std::span(wide).first(words));
-    }
-  }
-
-  void widen_row(std::uint32_t y) {
-    double_row(y);
-    for (const StampRun& run : stamp_.runs) {
+/// The bitmap widened by the stamp, and the positions from which that reaches beyond the map.
+Bitmap widened(const Bitmap& blocked, const Stamp& stamp, const Execution& execution) {
+  const int reach = std::max({-stamp.least_x, stamp.most_x, stamp.widest});
+  const std::size_t margin = as_whole<std::size_t>(reach) / 64 + 1;  // words before a row's first
+  const std::size_t words = blocked.row(0).size() + 2 * margin + 2;
+  const auto lengths = as_whole<std::size_t>(std::bit_width(as_whole<unsigned>(stamp.widest)));
+  std::vector doubled(lengths, std::vector<std::uint64_t>(words, 0));
+  const std::int64_t width = blocked.width();
+  const std::int64_t height = blocked.height();
+  Bitmap result(blocked.width(), blocked.height());
+  for (std::uint32_t y = 0; y < blocked.height(); ++y) {
+    execution.check();
+    const auto row = blocked.row(y);
+    if (std::all_of(row.begin(), row.end(), [](std::uint64_t word) { return word == 0; })) continue;
+    double_row(row, margin, doubled);
+    for (const StampRun& run : stamp.runs) {
       const std::int64_t to = std::int64_t{y} - run.dy;
-      if (to < 0 || to >= blocked_.height()) continue;
+      if (to < 0 || to >= height) continue;
       const auto length = as_whole<unsigned>(run.last - run.first + 1);
       const auto n = as_whole<std::size_t>(std::bit_width(length) - 1);
-      const auto out = result_.row(as_whole<std::uint32_t>(to));
-      const auto at = [&](int dx) { return as_whole<std::size_t>(as_whole<std::int64_t>(margin_) + dx); };
-      or_from(doubled_[n], at(run.first), out);
-      or_from(doubled_[n], at(run.last + 1 - (1 << n)), out);
+      const auto out = result.row(as_whole<std::uint32_t>(to));
+      const auto at = [&](int dx) { return as_whole<std::size_t>(as_whole<std::int64_t>(64 * margin) + dx); };
+      or_from(doubled[n], at(run.first), out);
+      or_from(doubled[n], at(run.last + 1 - (1 << n)), out);
     }
   }
-
-  /// Positions from which the stamp reaches beyond the map.
-  void block_border() {
-    const std::int64_t width = blocked_.width();
-    const std::int64_t height = blocked_.height();
-    const auto column = [&](std::int64_t x) { return as_whole<std::uint32_t>(std::clamp<std::int64_t>(x, 0, width)); };
-    for (std::int64_t y = 0; y < height; ++y) {
-      const auto row = as_whole<std::uint32_t>(y);
-      const bool is_beyond = (y + stamp_.least_y < 0 || y + stamp_.most_y >= height);
-      result_.set_run(row, 0, column(is_beyond ? width : -stamp_.least_x));
-      result_.set_run(row, column(width - stamp_.most_x), column(width));
-    }
+  result.clear_beyond_width();
+  const auto column = [&](std::int64_t x) { return as_whole<std::uint32_t>(std::clamp<std::int64_t>(x, 0, width)); };
+  for (std::int64_t y = 0; y < height; ++y) {
+    const auto row = as_whole<std::uint32_t>(y);
+    const bool is_beyond = (y + stamp.least_y < 0 || y + stamp.most_y >= height);
+    result.set_run(row, 0, column(is_beyond ? width : -stamp.least_x));
+    result.set_run(row, column(width - stamp.most_x), column(width));
   }
-
-  const Bitmap& blocked_;
-  const Stamp& stamp_;
-  Bitmap result_;
-  std::size_t margin_;  // bits before a row's first, a multiple of 64
-  std::vector<std::vector<std::uint64_t>> doubled_;
-};
+  return result;
+}
 
 /// The stamp of a job on a map whose cells are so wide, with some room around the body. A position touches the square
 /// around a point exactly if the point is in the sum of body and square.
@@ -409,7 +388,7 @@ HeadingLayers map_layers(const OccupancyMap& map, std::span<const Vec2> outline,
   execution.reserve(jobs.size() * map.blocked.bytes());
   layers.bitmaps = parts_of_chunks(jobs.size(), 1, execution, [&](Range r) {
     const Stamp stamp = stamp_of(jobs[r.first], map.cell, room, execution);
-    return Widening(map.blocked, stamp).run(execution);
+    return widened(map.blocked, stamp, execution);
   });
   return layers;
 }

@@ -94,81 +94,30 @@ bool comes_before(Vec2 a, Vec2 b) {
   return is_upper(a) != is_upper(b) ? is_upper(a) : cross(a, b) > 0.0;
 }
 
-/// From where to where a convex set goes on each row of a grid; coordinates in steps of the grid.
-class RowSpans {
- public:
-  explicit RowSpans(std::size_t rows) : rows_(static_cast<double>(rows)) {
-    low_.fill(std::numeric_limits<double>::infinity());
-    high_.fill(-std::numeric_limits<double>::infinity());
-  }
-  /// A side from p to q, widened to all sides.
-  void include(Vec2 p, Vec2 q, double reach) {
-    if (q.y < p.y) std::swap(p, q);
-    const double first = std::max(0.0, std::ceil(p.y - reach));
-    const double last = std::min(rows_ - 1.0, std::floor(q.y + reach));
-    const double slope = q.y > p.y ? (q.x - p.x) / (q.y - p.y) : 0.0;
-    const bool is_flat = !(std::abs(slope) < 1e9) || q.y - p.y < 1e-9;
-    for (double row = first; row <= last; row += 1.0) {
-      const double below = std::clamp(row - reach, p.y, q.y);
-      const double above = std::clamp(row + reach, p.y, q.y);
-      const double from = is_flat ? p.x : p.x + slope * (below - p.y);
-      const double to = is_flat ? q.x : p.x + slope * (above - p.y);
-      const auto r = bounded_whole<std::size_t>(row);
-      low_[r] = std::min({low_[r], from - reach, to - reach});
-      high_[r] = std::max({high_[r], from + reach, to + reach});
-    }
-  }
-  void take_from(PlaceGrid& grid) const {
-    const auto last_column = static_cast<double>(grid.columns - 1);
-    for (std::size_t row = 0; row < grid.rows; ++row) {
-      const double first = std::max(0.0, std::ceil(low_[row]));
-      const double last = std::min(last_column, std::floor(high_[row]));
-      if (!(first <= last)) continue;
-      const auto count = bounded_whole<std::size_t>(last - first);  // less one
-      grid.bits[row] &= ~(~std::uint64_t{0} >> (63 - count) << bounded_whole<std::size_t>(first));
-    }
-  }
-
- private:
-  double rows_;
-  std::array<double, PlaceGrid::most> low_;
-  std::array<double, PlaceGrid::most> high_;
-};
-
-struct RowInterval {
-  double from = std::numeric_limits<double>::infinity();
-  double to = -std::numeric_limits<double>::infinity();
-  void include(double x) {
-    from = std::min(from, x);
-    to = std::max(to, x);
-  }
-  bool empty() const { return from > to; }
-};
-
 /// Adds where the segment meets the line at height y.
-void include_segment(Vec2 a, Vec2 b, double y, RowInterval& interval) {
+void include_segment(Vec2 a, Vec2 b, double y, Box& interval) {
   if (a.y > b.y) std::swap(a, b);
   if (y < a.y || y > b.y) return;
   if (a.y == b.y) {
-    interval.include(a.x);
-    interval.include(b.x);
+    interval.include(Vec2{a.x, y});
+    interval.include(Vec2{b.x, y});
   } else {
-    interval.include(a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x));
+    interval.include(Vec2{a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x), y});
   }
 }
 
-void include_disc(Vec2 centre, double radius, double y, RowInterval& interval) {
+void include_disc(Vec2 centre, double radius, double y, Box& interval) {
   const double dy = y - centre.y;
   if (std::abs(dy) > radius) return;
   const double half = std::sqrt(radius * radius - dy * dy);
-  interval.include(centre.x - half);
-  interval.include(centre.x + half);
+  interval.include(Vec2{centre.x - half, y});
+  interval.include(Vec2{centre.x + half, y});
 }
 
 /// The line at height y within the convex polygon widened by radius: of discs around its corners and of its sides moved
 /// outwards, which together have the same outline.
-RowInterval slice(std::span<const Vec2> convex, double radius, double y) {
-  RowInterval interval;
+Box slice(std::span<const Vec2> convex, double radius, double y) {
+  Box interval;
   for (std::size_t i = 0; i < convex.size(); ++i) {
     const Vec2 a = convex[i];
     const Vec2 b = convex[(i + 1) % convex.size()];
@@ -307,10 +256,31 @@ ConvexPiece turned(std::span<const Vec2> outline, std::uint32_t k, std::uint32_t
 
 void take_blocked_places(std::span<const Vec2> obstacle, std::span<const Vec2> mirrored_body, double reach,
                          PlaceGrid& free) {
+  // From where to where the sum goes on each row; coordinates in steps of the grid.
+  std::array<double, PlaceGrid::most> low;
+  std::array<double, PlaceGrid::most> high;
+  low.fill(std::numeric_limits<double>::infinity());
+  high.fill(-std::numeric_limits<double>::infinity());
+  const double scale = 1.0 / free.step;
+  const double room = scale * reach;
+  const auto include = [&](Vec2 p, Vec2 q) {  // a side, widened to all sides
+    if (q.y < p.y) std::swap(p, q);
+    const double first = std::max(0.0, std::ceil(p.y - room));
+    const double last = std::min(static_cast<double>(free.rows) - 1.0, std::floor(q.y + room));
+    const double slope = q.y > p.y ? (q.x - p.x) / (q.y - p.y) : 0.0;
+    const bool is_flat = !(std::abs(slope) < 1e9) || q.y - p.y < 1e-9;
+    for (double row = first; row <= last; row += 1.0) {
+      const double below = std::clamp(row - room, p.y, q.y);
+      const double above = std::clamp(row + room, p.y, q.y);
+      const double from = is_flat ? p.x : p.x + slope * (below - p.y);
+      const double to = is_flat ? q.x : p.x + slope * (above - p.y);
+      const auto r = bounded_whole<std::size_t>(row);
+      low[r] = std::min({low[r], from - room, to - room});
+      high[r] = std::max({high[r], from + room, to + room});
+    }
+  };
   CornerWalk a(obstacle);
   CornerWalk b(mirrored_body);
-  RowSpans rows(free.rows);
-  const double scale = 1.0 / free.step;
   Vec2 p = scale * (a.corner() + b.corner() - free.origin);
   do {
     const bool by_a = !a.done() && (b.done() || comes_before(a.side(), b.side()));
@@ -322,10 +292,17 @@ void take_blocked_places(std::span<const Vec2> obstacle, std::span<const Vec2> m
       q = p + scale * b.side();
       b.advance();
     }
-    rows.include(p, q, scale * reach);
+    include(p, q);
     p = q;
   } while (!a.done() || !b.done());
-  rows.take_from(free);
+  const auto last_column = static_cast<double>(free.columns - 1);
+  for (std::size_t row = 0; row < free.rows; ++row) {
+    const double first = std::max(0.0, std::ceil(low[row]));
+    const double last = std::min(last_column, std::floor(high[row]));
+    if (!(first <= last)) continue;
+    const auto count = bounded_whole<std::size_t>(last - first);  // less one
+    free.bits[row] &= ~(~std::uint64_t{0} >> (63 - count) << bounded_whole<std::size_t>(first));
+  }
 }
 
 LatticeMarking::LatticeMarking(Vec2 origin, double cell, std::uint32_t width, std::uint32_t height)
@@ -349,8 +326,8 @@ void LatticeMarking::mark_near(std::span<const Vec2> convex, double radius) {
   const double last = std::min<double>(marked_.height() - 1.0, std::floor((box.max.y + rounding_ - origin_.y) / cell_));
   for (double j = first; j <= last; ++j) {
     const auto row = bounded_whole<std::int64_t>(j);
-    const RowInterval interval = slice(convex, radius, std::clamp(row_y(row), box.min.y, box.max.y));
-    if (!interval.empty()) mark_run(row, interval.from, interval.to);
+    const Box interval = slice(convex, radius, std::clamp(row_y(row), box.min.y, box.max.y));
+    if (!interval.empty()) mark_run(row, interval.min.x, interval.max.x);
   }
 }
 

@@ -72,19 +72,13 @@ def _outlines(answer, states):
     return np.stack((c * x - s * y, s * x + c * y), axis=2) + states[:, None, :2]
 
 
-def _curve(answer):
-    """x, y along the path, fine enough for a car's arcs to look round."""
-    if answer.path.shape[1] != 3 or len(answer.path) < 2:
-        return answer.path
-    return answer.sample(answer.length / 1000.0)[0]
-
-
 def _draw_answer(ax, answer, bodies):
     from matplotlib.collections import PolyCollection
     if answer.path.shape[1] == 6:
         raise ValueError("plot: draws the plane; answer.svg() shows arms from three sides")
     if len(answer.path):
-        curve = _curve(answer)
+        turns = answer.path.shape[1] == 3 and len(answer.path) > 1
+        curve = answer.sample(answer.length / 1000.0)[0] if turns else answer.path  # a car's arcs shall look round
         if bodies > 0:
             states, _ = answer.sample(max(answer.length / bodies, 1e-300))
             outlines = _outlines(answer, states)
@@ -185,7 +179,12 @@ def animate(answer, *, ax=None, frames=200, interval=40.0, speed=None,
     if not answer:
         raise ValueError(f"animate: the answer has no path ({answer.status})")
     axes = plot(answer, ax=ax, roadmap=False)
-    states = _frames(answer, frames, interval, speed, acceleration)
+    if speed is not None:
+        states = answer.sample(f"{interval!r}ms", speed=speed, acceleration=acceleration)[0]
+    else:
+        places, along = answer.sample(max(answer.length / frames, 1e-300))
+        at = np.linspace(0.0, along[-1], frames)
+        states = places[np.searchsorted(along, at).clip(0, len(along) - 1)]
     outlines = _outlines(answer, states)
     if outlines is None:
         body, = axes.plot([], [], "o", color=BODY, markersize=8)
@@ -200,12 +199,3 @@ def animate(answer, *, ax=None, frames=200, interval=40.0, speed=None,
         return (body,)
 
     return FuncAnimation(axes.figure, show, frames=len(states), interval=interval, blit=True)
-
-
-def _frames(answer, frames, interval, speed,
-            acceleration):
-    if speed is not None:
-        return answer.sample(f"{interval!r}ms", speed=speed, acceleration=acceleration)[0]
-    states, along = answer.sample(max(answer.length / frames, 1e-300))
-    at = np.linspace(0.0, along[-1], frames)
-    return states[np.searchsorted(along, at).clip(0, len(along) - 1)]

@@ -139,16 +139,22 @@ class BodyWalk {
   BodyWalk(const Box& box, double apart, const Execution& execution)
       : box_(box), apart_(apart), execution_(execution) {}
 
-  /// Legs that begin so far along the way.
+  /// Legs that begin so far along the way. The end of a leg is the next one's start.
   void go(const PathLegs& legs, double along) {
-    along_ = along;
     for (std::size_t leg = 0; leg < legs.leg_count() && !is_full(); ++leg) {
       execution_.poll(steps_++);
       const double length = legs.length(leg);
       const auto seen = std::isfinite(legs.radius(leg)) ? std::optional(Shares{})
                                                         : shares_in(box_, at(legs.at(leg, 0.0)), at(legs.at(leg, 1.0)));
-      if (seen && length > 0.0) add_between(legs, leg, *seen, length);
-      along_ += length;
+      if (seen && length > 0.0) {
+        for (double k = std::ceil((along + seen->first * length) / apart_); !is_full(); k += 1.0) {
+          execution_.poll(steps_++);
+          const double share = std::max(0.0, (k * apart_ - along) / length);
+          if (share >= 1.0 || share > seen->last) break;
+          add(legs.at(leg, share));
+        }
+      }
+      along += length;
     }
   }
   void add(const PathState& state) {
@@ -158,20 +164,9 @@ class BodyWalk {
   const std::vector<PathState>& places() const { return places_; }
 
  private:
-  /// The end of a leg is the next one's start.
-  void add_between(const PathLegs& legs, std::size_t leg, const Shares& seen, double length) {
-    for (double k = std::ceil((along_ + seen.first * length) / apart_); !is_full(); k += 1.0) {
-      execution_.poll(steps_++);
-      const double share = std::max(0.0, (k * apart_ - along_) / length);
-      if (share >= 1.0 || share > seen.last) return;
-      add(legs.at(leg, share));
-    }
-  }
-
   Box box_;
   double apart_;
   const Execution& execution_;
-  double along_ = 0.0;  // the way up to the next leg
   std::size_t steps_ = 0;
   std::vector<PathState> places_;
 };

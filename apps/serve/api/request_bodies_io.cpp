@@ -84,82 +84,69 @@ double distance_to(const std::vector<Vec2>& polygon, Vec2 p) {
   return least;
 }
 
+[[noreturn]] void refuse_missing(std::string_view what) {
+  throw HttpError(400, "not_there", "remove", fmt::format("a {} that shall be removed is not in the world", what));
+}
+
 /// What is erased becomes what is removed.
-class Removal {
- public:
-  Removal(const Scene& scene, const SceneChange& change, const Execution& execution)
-      : scene_(scene), execution_(execution), is_gone_(scene.polygons.size(), false), shapes_(change.remove) {
-    for (const ErasedPlace& place : change.erase) erase(place);
-    for (const Segment& wall : shapes_.walls) walls_.insert(ordered_ends(wall.a, wall.b));
-    for (const std::vector<Vec2>& polygon : shapes_.polygons) take(polygon);
+void erase(const Scene& scene, const ErasedPlace& place, DrawnShapes& removed, const Execution& execution) {
+  double least = place.reach;
+  std::size_t wall = scene.walls.size();
+  std::size_t polygon = scene.polygons.size();
+  for (std::size_t i = 0; i < scene.walls.size(); ++i) {
+    execution.poll(i);
+    const double away = distance(place.at, scene.walls.segment(i));
+    if (away <= least) std::tie(least, wall) = std::pair(away, i);
   }
-  const DrawnShapes& shapes() const { return shapes_; }
+  for (std::size_t i = 0; i < scene.polygons.size(); ++i) {
+    execution.poll(i);
+    const double away = distance_to(scene.polygons[i].corners, place.at);
+    if (away < least || (away <= least && wall == scene.walls.size())) std::tie(least, polygon) = std::pair(away, i);
+  }
+  if (polygon < scene.polygons.size()) {
+    removed.polygons.push_back(scene.polygons[polygon].corners);
+  } else if (wall < scene.walls.size()) {
+    removed.walls.push_back(scene.walls.segment(wall));
+  }
+}
 
-  std::vector<Segment> walls_left() {
-    execution_.reserve(scene_.walls.size() * sizeof(Segment));
-    std::vector<Segment> left;
-    left.reserve(scene_.walls.size());
-    for (std::size_t i = 0; i < scene_.walls.size(); ++i) {
-      execution_.poll(i);
-      const Segment wall = scene_.walls.segment(i);
-      const auto gone = walls_.find(ordered_ends(wall.a, wall.b));
-      if (gone == walls_.end()) {
-        left.push_back(wall);
-      } else {
-        walls_.erase(gone);  // each takes one
-      }
-    }
-    if (!walls_.empty()) refuse("wall");
-    return left;
+/// Each that is removed takes one.
+std::vector<ScenePolygon> polygons_left(const Scene& scene, const DrawnShapes& removed, const Execution& execution) {
+  std::vector<bool> is_gone(scene.polygons.size(), false);
+  for (const std::vector<Vec2>& polygon : removed.polygons) {
+    execution.check();
+    std::size_t i = 0;
+    while (i < is_gone.size() && (is_gone[i] || scene.polygons[i].corners != polygon)) ++i;
+    if (i == is_gone.size()) refuse_missing("polygon");
+    is_gone[i] = true;
   }
-  std::vector<ScenePolygon> polygons_left() const {
-    std::vector<ScenePolygon> left;
-    for (std::size_t i = 0; i < is_gone_.size(); ++i) {
-      if (!is_gone_[i]) left.push_back(scene_.polygons[i]);
-    }
-    return left;
+  std::vector<ScenePolygon> left;
+  for (std::size_t i = 0; i < is_gone.size(); ++i) {
+    if (!is_gone[i]) left.push_back(scene.polygons[i]);
   }
+  return left;
+}
 
- private:
-  [[noreturn]] static void refuse(std::string_view what) {
-    throw HttpError(400, "not_there", "remove", fmt::format("a {} that shall be removed is not in the world", what));
-  }
-  void take(const std::vector<Vec2>& polygon) {
-    execution_.check();
-    for (std::size_t i = 0; i < is_gone_.size(); ++i) {
-      if (is_gone_[i] || scene_.polygons[i].corners != polygon) continue;
-      is_gone_[i] = true;
-      return;
-    }
-    refuse("polygon");
-  }
-  void erase(const ErasedPlace& place) {
-    double least = place.reach;
-    std::size_t wall = scene_.walls.size();
-    std::size_t polygon = scene_.polygons.size();
-    for (std::size_t i = 0; i < scene_.walls.size(); ++i) {
-      execution_.poll(i);
-      const double away = distance(place.at, scene_.walls.segment(i));
-      if (away <= least) std::tie(least, wall) = std::pair(away, i);
-    }
-    for (std::size_t i = 0; i < scene_.polygons.size(); ++i) {
-      execution_.poll(i);
-      const double away = distance_to(scene_.polygons[i].corners, place.at);
-      if (away < least || (away <= least && wall == scene_.walls.size())) std::tie(least, polygon) = std::pair(away, i);
-    }
-    if (polygon < scene_.polygons.size()) {
-      shapes_.polygons.push_back(scene_.polygons[polygon].corners);
-    } else if (wall < scene_.walls.size()) {
-      shapes_.walls.push_back(scene_.walls.segment(wall));
+/// The same.
+std::vector<Segment> walls_left(const Scene& scene, const DrawnShapes& removed, const Execution& execution) {
+  std::multiset<std::array<double, 4>> gone;  // ends of those that are not found yet
+  for (const Segment& wall : removed.walls) gone.insert(ordered_ends(wall.a, wall.b));
+  execution.reserve(scene.walls.size() * sizeof(Segment));
+  std::vector<Segment> left;
+  left.reserve(scene.walls.size());
+  for (std::size_t i = 0; i < scene.walls.size(); ++i) {
+    execution.poll(i);
+    const Segment wall = scene.walls.segment(i);
+    const auto found = gone.find(ordered_ends(wall.a, wall.b));
+    if (found == gone.end()) {
+      left.push_back(wall);
+    } else {
+      gone.erase(found);
     }
   }
-
-  const Scene& scene_;
-  const Execution& execution_;
-  std::vector<bool> is_gone_;  // of polygons
-  DrawnShapes shapes_;
-  std::multiset<std::array<double, 4>> walls_;  // ends of those that are not found yet
-};
+  if (!gone.empty()) refuse_missing("wall");
+  return left;
+}
 
 void check(const Scene& scene, const SceneChange& change) {
   if (scene.map && change.of_shapes() > 0) {
@@ -391,13 +378,13 @@ ChangedScene changed(const Scene& scene, const SceneChange& change, const std::o
                      const Execution& execution) {
   check(scene, change);
   if (scene.map) return changed_map(scene, change, execution);
-  Removal removal(scene, change, execution);
-  std::vector<Segment> walls = removal.walls_left();
-  walls.insert(walls.end(), change.add.walls.begin(), change.add.walls.end());
-  std::vector<ScenePolygon> polygons = removal.polygons_left();
+  ChangedScene result{.scene = without_arrays(scene), .made = {.add = change.add, .remove = change.remove}};
+  DrawnShapes& removed = result.made.remove;
+  for (const ErasedPlace& place : change.erase) erase(scene, place, removed, execution);
+  std::vector<ScenePolygon> polygons = polygons_left(scene, removed, execution);
   for (const std::vector<Vec2>& corners : change.add.polygons) polygons.push_back({corners});
-
-  ChangedScene result{.scene = without_arrays(scene), .made = {.add = change.add, .remove = removal.shapes()}};
+  std::vector<Segment> walls = walls_left(scene, removed, execution);
+  walls.insert(walls.end(), change.add.walls.begin(), change.add.walls.end());
   Scene& now = result.scene;
   for (const PriceMask& mask : scene.prices.masks) execution.reserve(mask.read ? mask.read->values.size() : 0);
   now.prices = scene.prices;

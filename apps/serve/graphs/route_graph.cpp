@@ -124,7 +124,7 @@ class Simplifying {
 
   RouteGraph made() {
     RouteGraph made = graph_;
-    for (const std::vector<std::size_t>& chain : chains()) replace(chain);
+    replace_chains();
     made.nodes.clear();
     made.edges.clear();
     for (std::size_t v = 0; v < is_gone_.size(); ++v) {
@@ -162,8 +162,7 @@ class Simplifying {
   }
 
   /// From a node that stays to one, over nodes that need not; a round without one that stays begins at its first.
-  std::vector<std::vector<std::size_t>> chains() const {
-    std::vector<std::vector<std::size_t>> chains;
+  void replace_chains() {
     std::vector<bool> seen(is_passed_.size(), false);
     const auto follow = [&](std::size_t first, std::size_t next) {
       std::vector<std::size_t> chain{first, next};
@@ -173,7 +172,7 @@ class Simplifying {
         const std::size_t before = chain[chain.size() - 2];
         chain.push_back(*around_[v].begin() == before ? *around_[v].rbegin() : *around_[v].begin());
       }
-      chains.push_back(std::move(chain));
+      replace(chain);
     };
     for (std::size_t v = 0; v < is_passed_.size(); ++v) {
       if (is_passed_[v]) continue;
@@ -186,7 +185,6 @@ class Simplifying {
       seen[v] = true;
       follow(v, *around_[v].begin());
     }
-    return chains;
   }
 
   /// Part by part, for a chain may have as many as it has nodes; each costs its length.

@@ -291,20 +291,15 @@ class Connections : public HttpServer {
     const auto of_address = [&] { return std::count_if(connections_.begin(), connections_.end(), same); };
     if (!address.is_loopback() && static_cast<std::size_t>(of_address()) >= limits_.of_an_address) return false;
     if (connections_.size() < limits_.connections) return true;
-    Connection* const longest = longest_waiting();
-    if (longest == nullptr) return false;
-    ++figures_.gave_way;
-    close(*longest);
-    return true;
-  }
-  /// Who has waited longest without a whole request; nullptr: all are worked on or answered.
-  Connection* longest_waiting() const {
-    Connection* longest = nullptr;
+    Connection* longest = nullptr;  // that has waited without a whole request
     for (const auto& [id, other] : connections_) {
       const bool waits = !other->closed && (other->stage <= Stage::body || other->stage == Stage::linger);
       if (waits && (longest == nullptr || other->waits_since < longest->waits_since)) longest = other.get();
     }
-    return longest;
+    if (longest == nullptr) return false;  // all are worked on or answered
+    ++figures_.gave_way;
+    close(*longest);
+    return true;
   }
   /// Calls visit with each; it may forget the one that it is given.
   template <class Visit>

@@ -45,13 +45,9 @@ function showGraph() {
   byId("graph-why").hidden = blocked.length === 0;
   if (blocked.length) byId("graph-why").textContent = "Edge " + blocked[0].from + " to " + blocked[0].to + " is not free: " + verdictOf(blocked[0]).why + ". Nothing is saved while there are such edges.";
   byId("graph-drop").hidden = blocked.length === 0;
-  byId("graph-save").disabled = graph.edges.size === 0;
-  byId("graph-undo").disabled = graph.undo.length === 0;
-  byId("graph-redo").disabled = graph.redo.length === 0;
-  byId("graph-remove").disabled = !chosen;
-  byId("graph-join").disabled = !node;
+  const there = {save: graph.edges.size, undo: graph.undo.length, redo: graph.redo.length, remove: chosen, join: node, place: node};
+  for (const [name, what] of Object.entries(there)) byId("graph-" + name).disabled = !what;
   byId("graph-join").setAttribute("aria-pressed", String(editor.joining !== null));
-  byId("graph-place").disabled = !node;
   byId("graph-place").value = node ? node.at.join(", ") : "";
 }
 
@@ -194,16 +190,11 @@ function wireGraph() {
   window.addEventListener("pointerup", endDrag);
   window.addEventListener("pointercancel", endDrag);
   onMapKeys(event => editor.on && takesKey(event));
-  byId("graph-build").addEventListener("click", buildGraph);
+  const buttons = {build: buildGraph, undo: undoGraph, redo: redoGraph, join, remove: removeChosen, drop: removeBlocked, save: saveGraph};
+  for (const [name, act] of Object.entries(buttons)) byId("graph-" + name).addEventListener("click", act);
   byId("graph-file").addEventListener("change", event => { openGraphFile(event.target.files[0]); event.target.value = ""; });
   byId("graph-edit").addEventListener("click", () => setEditing(!editor.on));
   byId("graph-kind").addEventListener("change", event => { byId("graph-samples-row").hidden = event.target.value !== "roadmap"; });
-  byId("graph-undo").addEventListener("click", undoGraph);
-  byId("graph-redo").addEventListener("click", redoGraph);
-  byId("graph-join").addEventListener("click", join);
-  byId("graph-remove").addEventListener("click", removeChosen);
-  byId("graph-drop").addEventListener("click", removeBlocked);
-  byId("graph-save").addEventListener("click", saveGraph);
   byId("graph-place").addEventListener("change", readPlace);
   showGraph();
 }

@@ -31,7 +31,7 @@ TEST(SvgAnimation, HeadingsRunOnWithoutJumps) {
     car.poses.push_back({0, 0, wrapped_angle(i * pi / 2)});  // two full turns
     car.lengths.push_back(i == 0 ? 0.0 : 1.0);
   }
-  const std::string text = svg_moving_body(car, "way", 2.0, 0.1);
+  const std::string text = svg_moving_body(car, 2.0, 0.1);
   EXPECT_NE(text.find("values=\"0.000;90.000;180.000;270.000;360.000;450.000;540.000;630.000;720.000\""),
             std::string::npos)
       << text;
@@ -42,7 +42,7 @@ TEST(SvgAnimation, HeadingsRunOnWithoutJumps) {
 
 TEST(SvgAnimation, WhatStandsStillIsNotAnimated) {
   const MovingBody still{.radius = 1.0, .poses = {{1, 1, 0}}, .lengths = {0.0}};
-  EXPECT_EQ(svg_moving_body(still, "way", 1.0, 0.1), "");
+  EXPECT_EQ(svg_moving_body(still, 1.0, 0.1), "");
 }
 
 }  // namespace

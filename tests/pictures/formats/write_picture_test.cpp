@@ -116,7 +116,7 @@ TEST(WritePicture, ALongPathGoesOnInTheNextAttribute) {
   Picture picture = titled_picture(scene);
   std::vector<Vec2> path;
   for (int i = 0; i <= 90'000; ++i) path.push_back({1e-3 * (i % 17) + 3e-4 * i, 10.0 + (i % 2)});
-  picture.path = path;
+  picture.path.assign(path.begin(), path.end());
   const std::string svg = written(write_svg, picture);
   EXPECT_LT(sizes_of(svg).first, 1'000'000U);
   EXPECT_TRUE(holds(svg, "27.004 10L"));  // somewhere on its way

@@ -47,7 +47,7 @@ TEST(DrawArm, LinksOfAnySolidAreOutlinesInEachView) {
   const std::vector<JointState> path{{0.0, 0.0}, {0.5, 1.0}};
   Scene scene;
   scene.solids = {Solid{.kind = SolidKind::box, .half = {1, 2, 3}}};
-  const ArmViews views = arm_views(scene, forked_arm(), path, {});
+  const Picture views = arm_views(scene, forked_arm(), path, {});
   ASSERT_EQ(views.layers.size(), 4U);
   const PictureLayer& start = views.layers[1];
   ASSERT_EQ(start.lines.size(), 9U) << "three solids in three views";
@@ -56,7 +56,7 @@ TEST(DrawArm, LinksOfAnySolidAreOutlinesInEachView) {
   EXPECT_NEAR(area_of(start, 2), 0.5, 1e-12) << "the hull";
   EXPECT_NEAR(area_of(start, 3), 1.0 * 0.2, 1e-12) << "the box from above";
   EXPECT_NEAR(area_of(start, 4), std::numbers::pi * 0.0625, 0.003);
-  ASSERT_EQ(views.stage.polygons.size(), 3U);
+  ASSERT_EQ(views.stage->polygons.size(), 3U);
 }
 
 TEST(DrawArm, ARobotFarAwayIsSeenAsLarge) {
@@ -66,8 +66,8 @@ TEST(DrawArm, ARobotFarAwayIsSeenAsLarge) {
   moved.base = there;
   moved.joints[0].origin.pretranslate(there);
   moved.links[2].solids[0].pose.pretranslate(there);
-  const ArmViews near = arm_views(Scene{}, forked_arm(), path, {});
-  const ArmViews far = arm_views(Scene{}, moved, path, {});
+  const Picture near = arm_views(Scene{}, forked_arm(), path, {});
+  const Picture far = arm_views(Scene{}, moved, path, {});
   ASSERT_EQ(far.panels.size(), near.panels.size());
   for (std::size_t i = 0; i < near.panels.size(); ++i) {
     EXPECT_NEAR(far.panels[i].box.width(), near.panels[i].box.width(), 1e-9) << i;
@@ -77,9 +77,9 @@ TEST(DrawArm, ARobotFarAwayIsSeenAsLarge) {
 
 TEST(DrawArm, FacesLookOutwards) {
   const std::vector<JointState> stands{{0.0, 0.0}};
-  const ArmViews views = arm_views({}, forked_arm(), stands, {});
+  const Picture views = arm_views({}, forked_arm(), stands, {});
   double volume = 0.0;
-  for (const SeenSolid& s : views.solids.solids) {
+  for (const SeenSolid& s : views.solids->solids) {
     ASSERT_TRUE(s.c);
     volume += s.a.dot(s.b.cross(*s.c)) / 6.0;
   }
@@ -89,14 +89,14 @@ TEST(DrawArm, FacesLookOutwards) {
 
 TEST(DrawArm, MovesAsThePathDoes) {
   const std::vector<JointState> path{{3.0, 0.0}, {-3.0, 1.0}};
-  const ArmViews views = arm_views({}, forked_arm(), path, {});
-  ASSERT_EQ(views.arm.frames.size(), views.arm.moments.size());
-  ASSERT_EQ(views.arm.frames.front().size(), 4U) << "the base's, too";
-  ASSERT_EQ(views.arm.links.size(), 3U);
-  for (const auto& frames : views.arm.frames) EXPECT_LT(frames[1](0, 0), -0.9) << "the shorter way, by pi";
-  const Vec3 tool = views.arm.tools.back();
+  const Picture views = arm_views({}, forked_arm(), path, {});
+  ASSERT_EQ(views.arm->frames.size(), views.arm->moments.size());
+  ASSERT_EQ(views.arm->frames.front().size(), 4U) << "the base's, too";
+  ASSERT_EQ(views.arm->links.size(), 3U);
+  for (const auto& frames : views.arm->frames) EXPECT_LT(frames[1](0, 0), -0.9) << "the shorter way, by pi";
+  const Vec3 tool = views.arm->tools.back();
   EXPECT_TRUE(tool.isApprox(Vec3(std::cos(3.0), -std::sin(3.0), 1.0), 1e-12));
-  EXPECT_EQ(views.arm.spines.front().size(), views.arm.spines.back().size());
+  EXPECT_EQ(views.arm->spines.front().size(), views.arm->spines.back().size());
 }
 
 }  // namespace

@@ -96,7 +96,7 @@ TEST(Page, TheLegendTellsWhatIsDrawnAndNothingElse) {
   axis.lines.add(path);
   const std::vector<PictureLayer> layers{empty, axis};
   picture.layers = layers;
-  picture.path = path;
+  picture.path.assign(path.begin(), path.end());
   picture.goal.reset();
   EXPECT_EQ(labels_of(laid_out(picture)),
             (std::vector<std::string>{"obstacle", "bounds", "medial axis", "path", "start"}));

@@ -24,7 +24,7 @@ AnytimeBody<typename W::State> body_of(const SampledProblem<W>& problem) {
   AnytimeBody<State> body;
   body.shortened = [&problem, cost](const Path<State>& path, double hopeless, std::uint64_t seed, const Execution& on,
                                     Counters& counters) {
-    return improved_path(problem.view, path, cost, {.seed = seed, .hopeless = hopeless}, on, counters);
+    return improve_path(problem.view, path, cost, {.seed = seed, .hopeless = hopeless}, on, counters);
   };
   body.length = [&problem](const Path<State>& path) { return problem.length(path); };
   body.judged_s = [](const Path<State>&) { return 0.0; };

@@ -191,7 +191,7 @@ void expect_shortcuts_to_shorten() {
     const auto solution = rrt_connect(WorldView(world), start, std::span(&goal, 1), {.seed = seed}, {});
     ASSERT_EQ(solution.outcome, Outcome::solved);
     Counters counters;
-    const auto shorter = shorter_path(WorldView(world), solution.path, length, {.seed = seed}, {}, counters);
+    const auto shorter = shortcut_path(WorldView(world), solution.path, length, {.seed = seed}, {}, counters);
     expect_verified(scene, world, shorter);
     EXPECT_LE(path_length(shorter, length), path_length(solution.path, length) + 1e-9);
     before += path_length(solution.path, length);

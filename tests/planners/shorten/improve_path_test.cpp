@@ -22,7 +22,7 @@ double share_left(const problems::SampledProblem<W>& problem, std::uint64_t seed
   Counters first_counters;
   for (const unsigned threads : {1U, 2U, 8U}) {
     Counters counters;
-    const auto path = improved_path(problem.view, found.path, length, {.seed = seed}, {.threads = threads}, counters);
+    const auto path = improve_path(problem.view, found.path, length, {.seed = seed}, {.threads = threads}, counters);
     if (threads == 1) {
       first = path;
       first_counters = counters;
@@ -58,8 +58,8 @@ TEST(ImprovePath, ApproachesTheShortestAroundACornerAndKeepsFewStates) {
   const Path<Vec2> path = {{2, 1}, {1, 9}, {4, 6}, {5, 9}, {9, 9}, {8, 1}};
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Counters counters;
-    const auto shorter = improved_path(problem.view, path, MazeWorld::distance,
-                                       {.seed = seed, .worth = 1e-4, .patience = 10}, {}, counters);
+    const auto shorter = improve_path(problem.view, path, MazeWorld::distance,
+                                      {.seed = seed, .worth = 1e-4, .patience = 10}, {}, counters);
     EXPECT_LE(problem.length(shorter), 10.0 * 1.02) << seed;
     EXPECT_GE(problem.length(shorter), 10.0);
     EXPECT_LE(shorter.size(), 8U);
@@ -71,12 +71,12 @@ TEST(ImprovePath, LeavesWhatCanNotBeShorter) {
   const Path<Vec2> straight = {{2, 1}, {8, 1}};
   const Path<Vec2> in_pieces = {{2, 1}, {3, 1}, {5, 1}, {8, 1}};
   Counters counters;
-  EXPECT_EQ(improved_path(problem.view, straight, MazeWorld::distance, {}, {}, counters), straight);
-  EXPECT_EQ(improved_path(problem.view, in_pieces, MazeWorld::distance, {}, {}, counters), straight);
+  EXPECT_EQ(improve_path(problem.view, straight, MazeWorld::distance, {}, {}, counters), straight);
+  EXPECT_EQ(improve_path(problem.view, in_pieces, MazeWorld::distance, {}, {}, counters), straight);
   const Path<Vec2> one = {{2, 1}};
-  EXPECT_EQ(improved_path(problem.view, one, MazeWorld::distance, {}, {}, counters), one);
+  EXPECT_EQ(improve_path(problem.view, one, MazeWorld::distance, {}, {}, counters), one);
   const Deadline past(1e-9);
-  EXPECT_THROW(improved_path(problem.view, in_pieces, MazeWorld::distance, {}, {.deadline = &past}, counters), Stopped);
+  EXPECT_THROW(improve_path(problem.view, in_pieces, MazeWorld::distance, {}, {.deadline = &past}, counters), Stopped);
 }
 
 /// Three joints of [0, 1]; a wall between 0.4 and 0.6 of the first, whose gate is above 0.8 of the second.

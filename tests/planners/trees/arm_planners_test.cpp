@@ -178,7 +178,7 @@ TEST_P(StudyScene, AHundredSamplesSolveItForEachOfAHundredSeeds) {
     ASSERT_EQ(found.outcome, Outcome::solved);
     if (seed > 12) continue;
     Counters counters;
-    const auto shorter = shorter_path(WorldView(*world_), found.path, joint_distance, {.seed = seed}, {}, counters);
+    const auto shorter = shortcut_path(WorldView(*world_), found.path, joint_distance, {.seed = seed}, {}, counters);
     expect_verified(question_, shorter);
     lengths.push_back(path_length(shorter, joint_distance));
   }

@@ -81,7 +81,7 @@ TEST(RrtConnect, SolvesPolyEasyForEverySeed) {
     expect_verified(scene, kite, solution.path, {.start = easy_start, .goal = easy_goal});
     if (seed > 20) continue;
     Counters counters;
-    const auto path = shorter_path(WorldView(world), solution.path, plane_length, {.seed = seed}, {}, counters);
+    const auto path = shortcut_path(WorldView(world), solution.path, plane_length, {.seed = seed}, {}, counters);
     expect_verified(scene, kite, path, {.start = easy_start, .goal = easy_goal});
     const double length = path_length(path, plane_length);
     EXPECT_LE(length, path_length(solution.path, plane_length) + 1e-12);
@@ -207,8 +207,8 @@ TEST(Rrt, IsTheSameForAnyNumberOfThreadsAndTrees) {
         auto solution = planner.plan(WorldView(world), easy_start, std::span(&easy_goal, 1),
                                      {.trees = trees, .seed = 5}, {.threads = threads}, nullptr);
         Counters& counters = solution.counters;
-        solution.path =
-            shorter_path(WorldView(world), solution.path, plane_length, {.rounds = 20}, {.threads = threads}, counters);
+        solution.path = shortcut_path(WorldView(world), solution.path, plane_length, {.rounds = 20},
+                                      {.threads = threads}, counters);
         all.push_back(std::move(solution));
       }
       for (const auto& solution : all) {
@@ -324,7 +324,7 @@ TEST(Rrt, ServesPointsAmongWallsToo) {
   const auto solution = rrt_connect(WorldView(world), start, std::span(&goal, 1), {}, {});
   ASSERT_EQ(solution.outcome, Outcome::solved);
   Counters counters;
-  const auto path = shorter_path(WorldView(world), solution.path, MazeWorld::distance, {}, {}, counters);
+  const auto path = shortcut_path(WorldView(world), solution.path, MazeWorld::distance, {}, {}, counters);
   EXPECT_LT(path_length(path, MazeWorld::distance), path_length(solution.path, MazeWorld::distance));
   for (const auto& p : {solution.path, path}) {
     EXPECT_TRUE(verify_path(scene, p, {.clearance = 0.1, .start = start, .goal = goal}, {}).verified);
@@ -371,7 +371,7 @@ TEST(ShortcutPath, ApproachesTheShortestPathAroundACorner) {
   const Path<Vec2> path = {{2, 1}, {1, 9}, {4, 6}, {5, 9}, {9, 9}, {8, 1}};
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Counters counters;
-    const auto shorter = shorter_path(WorldView(world), path, MazeWorld::distance, {.seed = seed}, {}, counters);
+    const auto shorter = shortcut_path(WorldView(world), path, MazeWorld::distance, {.seed = seed}, {}, counters);
     EXPECT_EQ(shorter.front(), path.front());
     EXPECT_EQ(shorter.back(), path.back());
     EXPECT_LE(path_length(shorter, MazeWorld::distance), 10.0 * 1.005) << seed;  // 3-4-5 triangles on both sides

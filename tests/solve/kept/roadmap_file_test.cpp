@@ -243,7 +243,7 @@ class LargeRoadmapFile : public ::testing::Test {
     std::vector<std::uint64_t> numbers(blocks * in_block);
     for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = i * 0x9e3779b97f4a7c15U;
     const std::vector<char> text(1000, 'x');
-    const std::vector sections{roadmap_section<std::uint64_t>("numbers", numbers), roadmap_section<char>("text", text)};
+    const std::vector sections{roadmap_section("numbers", numbers), roadmap_section("text", text)};
     test::write_sections(path_, {}, sections);
     offset_ = RoadmapFile(path_, {}).find("numbers")->offset;
   }

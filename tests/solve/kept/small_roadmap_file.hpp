@@ -33,8 +33,8 @@ struct SmallRoadmapFile {
     return numbers;
   }
   std::vector<RoadmapSection> sections() const {
-    return {roadmap_section<char>("meta", meta), roadmap_section<double>("states", states),
-            roadmap_section<std::uint64_t>("empty", empty), roadmap_section<std::uint32_t>("edge.first", first, true)};
+    return {roadmap_section("meta", meta), roadmap_section("states", states), roadmap_section("empty", empty),
+            roadmap_section("edge.first", first, true)};
   }
   /// The file's bytes.
   std::string written(const Execution& execution = {}) const {

@@ -52,7 +52,7 @@ TEST(WriteRoadmapFile, GivesTheSameBytesForAnyNumberOfThreads) {
   for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = static_cast<std::uint32_t>(i * 2654435761U);
   const TemporaryDirectory directory;
   const auto written = [&](unsigned threads) {
-    const std::vector sections{roadmap_section<std::uint32_t>("to", numbers)};
+    const std::vector sections{roadmap_section("to", numbers)};
     test::write_sections(directory.file("a"), {1, 2, "x"}, sections, {.threads = threads});
     return directory.read("a");
   };
@@ -66,7 +66,7 @@ TEST(WriteRoadmapFile, WritesAsManySectionsAndAsLongNamesAsReadersTake) {
   std::vector<std::string> names{"sixteen.letters_"};
   while (names.size() < 64) names.push_back("s" + std::to_string(names.size()));
   std::vector<RoadmapSection> sections;
-  for (const std::string& name : names) sections.push_back(roadmap_section<char>(name, one));
+  for (const std::string& name : names) sections.push_back(roadmap_section(name, one));
   const TemporaryDirectory directory;
   test::write_sections(directory.file("a"), {1, 2, "sixteen.letters_"}, sections);
   const RoadmapFile file(directory.file("a"), {});

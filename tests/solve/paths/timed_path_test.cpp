@@ -84,11 +84,7 @@ TEST(TimedPath, AStraightWayIsATrapezoidOrATriangle) {
   EXPECT_NEAR(TimedPath(near_legs, {.speed = 2}, {}).duration_s(), 0.5, 1e-12) << "no ramps";
 }
 
-double begin_of(const TimedPath& timed, std::size_t leg) {
-  double time_s = 0.0;
-  timed.at_share(leg, 0.0, time_s);
-  return time_s;
-}
+double begin_of(const TimedPath& timed, std::size_t leg) { return timed.at_share(leg, 0.0).time_s; }
 
 TEST(TimedPath, StopsAtCornersAndGoesOnWhereTheWayDoes) {
   const Answer bent = of_points({{0, 0}, {3, 0}, {3, 0}, {10, 0}, {10, 10}});
@@ -160,9 +156,8 @@ TEST(TimedPath, SaysTheSameByPlaceAndByTime) {
       for (std::size_t leg = 0; leg < legs.leg_count(); ++leg) {
         if (!(legs.length(leg) > 1e-6)) continue;
         for (const double share : {0.01, 0.3, 0.5, 0.99}) {
-          double time_s = 0.0;
-          const PathMoment by_place = timed.at_share(leg, share, time_s);
-          const PathMoment by_time = timed.at(time_s);
+          const PathMoment by_place = timed.at_share(leg, share);
+          const PathMoment by_time = timed.at(by_place.time_s);
           EXPECT_EQ(by_time.leg, leg);
           EXPECT_NEAR(by_time.share, share, 1e-7);
           EXPECT_NEAR(by_time.speed, by_place.speed, 1e-6);
