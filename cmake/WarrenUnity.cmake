@@ -35,13 +35,9 @@ function(warren_unity target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
 endfunction()
 
-# warren_cold(TARGET [FLAGS_OF_RELEASE]): its sources with less optimisation (WarrenOptions.cmake).
+# warren_cold(TARGET): its sources with less optimisation (WarrenOptions.cmake).
 function(warren_cold target)
-  set(flags ${warren_cold_flags})
-  if(ARGC GREATER 1 AND CMAKE_BUILD_TYPE STREQUAL "Release")
-    set(flags ${ARGV1})
-  endif()
-  target_compile_options(${target} PRIVATE ${flags})
+  target_compile_options(${target} PRIVATE ${warren_cold_flags})
   if(target STREQUAL "warren_readers")
     warren_headers(${target} warren_cold_reader_headers)
   else()
