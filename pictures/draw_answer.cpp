@@ -144,12 +144,13 @@ PictureLayer informed_set(const Answer& answer, Vec2 start, Vec2 goal, const Box
 }
 
 /// What is seen of a planner that gets better: where it looked, and the paths that it had before.
-void add_improvements(Picture& picture, const Scene& scene, const Answer& answer, ByProducts& made) {
+void add_improvements(Picture& picture, const Scene& scene, const Answer& answer, ByProducts& made,
+                      const Execution& execution) {
   if (!answer.verified || answer.improvements.empty()) return;
   const RobotKind body = answer.problem.robot.kind;
   const bool is_informed = answer.planner != name_of(PlannerKind::rrt_star);
   if (is_informed && (body == RobotKind::point || body == RobotKind::disc) && picture.start && picture.goal) {
-    Box box = obstacle_box(scene);
+    Box box = obstacle_box(scene, execution);
     if (scene.bounds) box.include(*scene.bounds);
     for (const Vec2 p : picture.path) box.include(p);
     PictureLayer ellipse = informed_set(answer, *picture.start, *picture.goal, box);
@@ -446,7 +447,7 @@ Picture drawing_of(const Scene& scene, const Answer& answer, ByProducts made, co
     picture.path.assign(made.arcs.points.begin(), made.arcs.points.end());
     picture.path_turns = std::move(made.arcs.turns);
   }
-  add_improvements(picture, scene, answer, made);
+  add_improvements(picture, scene, answer, made, execution);
   add_choices(picture, problem.rule, problem.via, answer.alternatives);
   return picture;
 }

@@ -12,6 +12,7 @@
 #include "core/base/enum_names.hpp"
 #include "core/base/error.hpp"
 #include "core/base/raw_vector.hpp"
+#include "parallel/asked_memory.hpp"
 #include "parallel/once.hpp"
 #include "parallel/ticker.hpp"
 #include "planners/mazes/tile_plane.hpp"
@@ -70,7 +71,8 @@ struct ReducedBand {
 };
 
 /// Those of a path that come within `reach` of rows of tiles; whatever leaves the maze is near its outermost rows.
-std::vector<NearLegs> legs_near(std::span<const Vec2> path, Range rows, const TileGrid& grid, double reach) {
+std::vector<NearLegs> legs_near(std::span<const Vec2> path, Range rows, const TileGrid& grid, double reach,
+                                const Execution& execution) {
   std::vector<NearLegs> runs;
   if (rows.first == rows.last) return runs;
   constexpr double far = std::numeric_limits<double>::infinity();
@@ -80,21 +82,24 @@ std::vector<NearLegs> legs_near(std::span<const Vec2> path, Range rows, const Ti
   const double high = rows.last == grid.tile_rows ? far : y(rows.last) + margin;
   bool goes_on = false;
   for (std::size_t leg = 0; leg + 1 < path.size(); ++leg) {
+    execution.poll(leg);
     const auto [least, most] = std::minmax({path[leg].y, path[leg + 1].y});
     const bool is_near = most >= low && least <= high;
-    if (is_near && !goes_on) runs.push_back({leg, {path[leg]}});
-    if (is_near) runs.back().points.push_back(path[leg + 1]);
+    if (is_near && !goes_on) push_asked(runs, {leg, {path[leg]}}, execution);
+    if (is_near) push_asked(runs.back().points, path[leg + 1], execution);
     goes_on = is_near;
   }
   return runs;
 }
 
 /// Edges that a rank's tiles and the row of tiles below them have to know.
-std::vector<std::uint64_t> edges_near(std::span<const std::uint64_t> edges, Range rows, unsigned side_log2) {
+std::vector<std::uint64_t> edges_near(std::span<const std::uint64_t> edges, Range rows, unsigned side_log2,
+                                      const Execution& execution) {
   std::vector<std::uint64_t> near;
-  for (const std::uint64_t edge : edges) {
-    const std::size_t row = maze::edge_row(edge) >> side_log2;
-    if (row + 1 >= rows.first && row < rows.last) near.push_back(edge);
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    execution.poll(i);
+    const std::size_t row = maze::edge_row(edges[i]) >> side_log2;
+    if (row + 1 >= rows.first && row < rows.last) push_asked(near, edges[i], execution);
   }
   return near;
 }
@@ -352,7 +357,8 @@ class LeaderOfRanks : public Leader, private OtherTiles, private JudgesElsewhere
     execution.reserve(edges * 64 + on_sides * 2 * sizeof(std::uint32_t));
     const maze::JoinedParts joined = join_parts(task_.unmade.formula->seed, rims, 1, band_.grid().side_log2, execution);
     const auto near = [&](unsigned rank) {
-      return edges_near(joined.turned, band_rows(tile_rows(), rank, requests_.ranks()), band_.grid().side_log2);
+      return edges_near(joined.turned, band_rows(tile_rows(), rank, requests_.ranks()), band_.grid().side_log2,
+                        execution);
     };
     if (!band_.is_empty()) band_.turn(near(0));
     requests_.ask_each(Request::turn, [&](unsigned rank, ValuePacker& to) { to.add_list(near(rank)); });
@@ -436,8 +442,8 @@ class LeaderOfRanks : public Leader, private OtherTiles, private JudgesElsewhere
   void begin(std::span<const Vec2> path, double reach) override {
     requests_.ask_each(Request::judge, [&](unsigned rank, ValuePacker& to) {
       to.add(reach);
-      for (const NearLegs& run :
-           legs_near(path, band_rows(tile_rows(), rank, requests_.ranks()), band_.grid(), reach)) {
+      for (const NearLegs& run : legs_near(path, band_rows(tile_rows(), rank, requests_.ranks()), band_.grid(), reach,
+                                           requests_.waits_as())) {
         to.add(run.first);
         to.add_list(run.points);
       }

@@ -87,6 +87,7 @@ class Requests {
   unsigned ranks() const { return transport_.ranks(); }
   /// Whoever waits from now on waits so.
   void wait_as(const Execution& execution) { execution_ = execution; }
+  const Execution& waits_as() const { return execution_; }  ///< how
   void ask_one(unsigned rank, Request request, std::span<const std::byte> body);
   /// Asks each of the others; say(rank, body) adds what it needs.
   template <class Say>

@@ -24,12 +24,12 @@ struct Turn {
 };
 
 /// Where the world has a raster, or somebody plans on one.
-std::optional<std::uint64_t> cells_of(const Answer& answer, const Scene& scene,
-                                      const std::optional<GridFields>& raster) {
+std::optional<std::uint64_t> cells_of(const Answer& answer, const Scene& scene, const std::optional<GridFields>& raster,
+                                      const Execution& execution) {
   if (answer.path.empty()) return std::nullopt;
   if (scene.map) return cells_passed(answer.path, *scene.map);
   if (!scene.grid && !raster) return std::nullopt;
-  const Box box = scene.bounds ? *scene.bounds : obstacle_box(scene);
+  const Box box = scene.bounds ? *scene.bounds : obstacle_box(scene, execution);
   return cells_passed(answer.path, box.min, grid_spec(raster.value_or(GridFields{}), scene).cell);
 }
 
@@ -144,7 +144,7 @@ class PlannerContest {
                     .hops = path_points(answer) > 0 ? path_points(answer) - 1 : 0,
                     .expanded = expanded_by(answer)};
     if (answer.verified) run.min_clearance = answer.min_clearance;
-    run.cells = cells_of(answer, scene_, raster_);
+    run.cells = cells_of(answer, scene_, raster_, execution_.quiet());
     run.turn_rad = answer.turn_rad;
     if (answer.seconds.search > 0.0) run.search_s = answer.seconds.search;
     run.raw_length = answer.raw_length;

@@ -392,9 +392,10 @@ WorldGraph world_graph(const Scene& scene, const Question& question, const Solve
   }
   graph.options = json_options(answer.options);
   std::erase_if(graph.options, [](const auto& option) { return option.first == "pipeline"; });
+  execution.reserve(roadmap.states.size() * sizeof(Vec2));
   graph.at.assign(roadmap.states.begin(), roadmap.states.end());
   const auto length = [&](VertexId v, VertexId w) { return distance(graph.at[v], graph.at[w]); };
-  graph.graph = with_lengths(roadmap.graph, Execution(), length);
+  graph.graph = with_lengths(roadmap.graph, execution, length);
   graph.start = static_cast<VertexId>(graph.at.size() - 2);
   graph.goal = static_cast<VertexId>(graph.at.size() - 1);
   return made;

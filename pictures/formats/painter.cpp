@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 
+#include "parallel/asked_memory.hpp"
 #include "pictures/model/picture.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "scenes/text/output_file_io.hpp"
@@ -73,6 +74,7 @@ class LineGroup {
     }
     if (closed) all.push_back(all.front());
     for (std::size_t i = 1; i < all.size(); ++i) {
+      count();
       mask_->draw_line(all[i - 1], all[i], density_ * pen_.width, pen_.opacity * opacity);
     }
   }
@@ -212,8 +214,10 @@ class Painter {
     LineGroup group = group_with({.stroke = colors::wall, .width = width(widths::wall, least)});
     group.begin("walls", "walls", picture_.scene.walls.size());
     std::optional<Segment> run;
+    std::size_t seen = 0;
     picture_.scene.walls.visit([&](auto all) {
       for (const auto& wall : all) {
+        execution_.poll(++seen);
         const Segment s = wall.segment();
         const bool goes_on = run && s.a == run->b &&
                              ((s.a.y == s.b.y && run->a.y == s.a.y && (s.b.x > s.a.x) == (run->b.x > run->a.x)) ||
@@ -249,6 +253,7 @@ class Painter {
       if (std::find(color.begin(), color.end(), c) == color.end()) continue;
       group.take_color(colors::components[c]);
       roadmap.graph.for_each_edge([&](VertexId v, VertexId w) {
+        execution_.poll(v);
         if (color[v] == c) group.segment(roadmap.states[v], roadmap.states[w]);
       });
     }
@@ -278,6 +283,7 @@ class Painter {
     for (std::size_t c = 0; c < colors::components.size(); ++c) {
       group.take_color(colors::components[c]);
       for (std::size_t v = 0; v < color.size(); ++v) {
+        execution_.poll(v);
         if (color[v] == c) group.segment(roadmap.states[v], roadmap.states[v]);
       }
     }
@@ -292,8 +298,10 @@ class Painter {
     std::vector<Vec2> seen;
     if (picture_.path.size() > long_path && picture_.path_turns.empty()) {
       const double apart = 0.5 / page_.view.scale;
-      for (const Vec2 p : picture_.path) {
-        if (seen.empty() || distance(seen.back(), p) > apart) seen.push_back(p);
+      for (std::size_t i = 0; i < picture_.path.size(); ++i) {
+        execution_.poll(i);
+        const Vec2 p = picture_.path[i];
+        if (seen.empty() || distance(seen.back(), p) > apart) push_asked(seen, p, execution_);
       }
       seen.push_back(picture_.path.back());
     }

@@ -158,6 +158,7 @@ class PdfSurface : public Surface {
   }
   void add_to_path(std::span<const Vec2> points, bool closed) {
     for (std::size_t i = 0; i < points.size(); ++i) {
+      execution_.poll(i + 1);
       const Vec2 p = at(points[i]);
       (i == 0 ? HPDF_Page_MoveTo : HPDF_Page_LineTo)(sheet_, real(p.x), real(p.y));
     }

@@ -331,8 +331,10 @@ class ArmDrawing {
 
   /// Where the tool is at these, in each view, instead of its trace.
   std::vector<PictureLayer> places(std::span<const Vec3> tools, std::span<const ToolLines> lines) const {
+    constexpr std::size_t bytes_a_line = 2 * (2 * sizeof(Vec2) + sizeof(std::uint32_t));  // of lists that double
     std::vector<PictureLayer> layers;
     for (const ToolLines& some : lines) {
+      execution_.reserve(views_.size() * some.edges.size() * bytes_a_line);
       PictureLayer& layer = layers.emplace_back(
           PictureLayer{.id = some.id, .label = some.label, .color = some.color, .width = some.width});
       for (const Projection& view : views_) {
@@ -347,8 +349,12 @@ class ArmDrawing {
                                                           .swatch = MarkShape::disc,
                                                           .color = colors::outline,
                                                           .width = widths::milestone});
+    execution_.reserve(views_.size() * tools.size() * bytes_a_line);
     for (const Projection& view : views_) {
-      for (const Vec3& p : tools) dots.lines.add(std::array{view.at(p), view.at(p)});
+      for (std::size_t i = 0; i < tools.size(); ++i) {
+        execution_.poll(i);
+        dots.lines.add(std::array{view.at(tools[i]), view.at(tools[i])});
+      }
     }
     return layers;
   }
@@ -541,6 +547,7 @@ void add_places(SolidView& view, std::span<const Vec3> tools, std::span<const To
 Picture arm_roadmap_views(const Scene& scene, const ArmModel& model, const JointState& start,
                           std::span<const JointState> states, std::span<const ToolLines> lines,
                           const Execution& execution) {
+  execution.reserve(states.size() * (sizeof(JointState) + 2 * sizeof(Vec3)));
   std::vector<JointState> seen{start};
   seen.insert(seen.end(), states.begin(), states.end());
   const ArmPath all(model, seen);
@@ -552,8 +559,8 @@ Picture arm_roadmap_views(const Scene& scene, const ArmModel& model, const Joint
     execution.poll(i);
     tools.push_back(all.tool(states[i]));
   }
-  const std::vector<PictureLayer> places = drawing.places(tools, lines);
-  views.layers.insert(views.layers.begin(), places.begin(), places.end());
+  std::vector<PictureLayer> places = drawing.places(tools, lines);
+  views.layers.insert(views.layers.begin(), std::move_iterator(places.begin()), std::move_iterator(places.end()));
   add_places(*views.solids, tools, lines, execution);
   return views;
 }

@@ -13,6 +13,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/solution.hpp"
+#include "parallel/asked_memory.hpp"
 #include "pictures/layers/draw_cells.hpp"
 #include "planners/graph/assemble_graph.hpp"
 #include "worlds/poses/steering_curve.hpp"
@@ -161,12 +162,14 @@ void add_curve(PictureLayer& layer, const Se2& a, const Se2& b, const RobotSpec&
 
 /// Each free motion once; where the car can't reverse, in its direction: an edge leads from the vertex in whose row it
 /// stands.
-std::vector<Edge> motions_of(const PlannedRoadmap<Se2>& roadmap, const RobotSpec& car) {
+std::vector<Edge> motions_of(const PlannedRoadmap<Se2>& roadmap, const RobotSpec& car, const Execution& execution) {
+  execution.reserve(roadmap.motions.size() * sizeof(Edge));
   if (!roadmap.motions.empty()) return roadmap.motions;
   std::vector<Edge> motions;
   for (VertexId v = 0; v < roadmap.graph.vertex_count(); ++v) {
+    execution.poll(v);
     for (const VertexId w : roadmap.graph.neighbours(v)) {
-      if (car.steering == SteeringKind::dubins || v < w) motions.push_back({v, w});
+      if (car.steering == SteeringKind::dubins || v < w) push_asked(motions, {v, w}, execution);
     }
   }
   return motions;
@@ -240,16 +243,18 @@ CarCurves car_curves(std::span<const PlannedRoadmap<Se2>> roadmaps, const RobotS
                    .milestones = {}};
   std::size_t drawn = 0;
   const auto add = [&](PictureLayer& layer, const Se2& a, const Se2& b) {
-    if (++drawn % 256 == 0) execution.check();
+    constexpr std::size_t bytes_a_curve = 512;
+    if (++drawn % 256 == 0) execution.reserve(256 * bytes_a_curve);
     add_curve(layer, a, b, car);
   };
   for (const PlannedRoadmap<Se2>& roadmap : roadmaps) {
     const RawVector<Se2>& states = roadmap.states;
-    for (const Edge& motion : motions_of(roadmap, car)) add(curves.edges, states[motion.from], states[motion.to]);
+    for (const Edge& motion : motions_of(roadmap, car, execution))
+      add(curves.edges, states[motion.from], states[motion.to]);
     for (const Edge& edge : roadmap.search_tree) {
       if (edge.to != no_vertex) add(curves.trees, states[edge.to], states[edge.from]);
     }
-    for (const Se2& state : states) curves.milestones.push_back(state.position());
+    for (const Se2& state : states) push_asked(curves.milestones, state.position(), execution);
   }
   return curves;
 }
@@ -336,15 +341,17 @@ PlannedRoadmap<Vec2> in_the_plane(const std::vector<PlannedRoadmap<State>>& road
   std::vector<Edge> edges;
   for (const PlannedRoadmap<State>& roadmap : roadmaps) {
     const auto first = static_cast<VertexId>(plane.states.size());
-    for (const State& state : roadmap.states) plane.states.push_back(position_of(state));
+    for (const State& state : roadmap.states) push_asked(plane.states, position_of(state), execution);
     for (VertexId v = 0; v < roadmap.graph.vertex_count(); ++v) {
       if (v % 1024 == 0) execution.check();
       for (const VertexId w : roadmap.graph.neighbours(v)) {
-        if (v < w) edges.push_back({first + v, first + w});
+        if (v < w) push_asked(edges, {first + v, first + w}, execution);
       }
     }
-    for (const Edge& edge : roadmap.search_tree) {
-      if (edge.to != no_vertex) plane.search_tree.push_back({first + edge.from, first + edge.to});
+    for (std::size_t i = 0; i < roadmap.search_tree.size(); ++i) {
+      execution.poll(i);
+      const Edge& edge = roadmap.search_tree[i];
+      if (edge.to != no_vertex) push_asked(plane.search_tree, {first + edge.from, first + edge.to}, execution);
     }
   }
   plane.graph = assemble_graph(plane.states.size(), edges, execution);

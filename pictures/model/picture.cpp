@@ -40,12 +40,19 @@ Canvas canvas_of(const Picture& picture, const Execution& execution) {
   if (known) canvas.whole = all;
   canvas.box = known.value_or(all);
   if (picture.scene.bounds) canvas.box.include(*picture.scene.bounds);
+  const auto include = [&](std::span<const Vec2> points) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      execution.poll(i + 1);
+      canvas.box.include(points[i]);
+    }
+  };
   for (const PictureLayer& layer : picture.layers) {
     if (known && layer.part == Part::world) continue;  // all of the map's cells
-    for (const Vec2 p : layer.lines.corners) canvas.box.include(p);
+    include(layer.lines.corners);
   }
   for (const AxesPanel& panel : picture.panels) canvas.box.include(panel.box);
-  for (const Vec2 p : without_arcs(picture.path, picture.path_turns)) canvas.box.include(p);
+  if (picture.path_turns.empty()) include(picture.path);
+  if (!picture.path_turns.empty()) include(without_arcs(picture.path, picture.path_turns));
   if (picture.start) canvas.box.include(*picture.start);
   if (picture.goal) canvas.box.include(*picture.goal);
   if (canvas.box.empty()) canvas.box = {{0, 0}, {1, 1}};
@@ -91,6 +98,7 @@ std::vector<std::uint8_t> component_ranks(std::span<const VertexId> labels, std:
       visit(v);
     }
   };
+  execution.reserve(labels.size() * (sizeof(std::uint32_t) + sizeof(std::uint8_t)));
   std::vector<std::uint32_t> size(labels.size(), 0);
   for_each([&](VertexId v) { ++size[labels[v]]; });
   const auto is_before = [&](VertexId a, VertexId b) { return size[a] != size[b] ? size[a] > size[b] : a < b; };
@@ -139,7 +147,7 @@ std::optional<Box> known_part(const OccupancyMap& map, const Execution& executio
   Box known;  // columns and rows of cells, from the first to the last that is known
   const std::uint32_t tail = map.unknown.width() % Bitmap::word_bits;
   for (std::uint32_t y = 0; y < map.unknown.height(); ++y) {
-    if (y % 64 == 0) execution.check();
+    execution.check();
     const auto words = map.unknown.row(y);
     for (std::size_t w = 0; w < words.size(); ++w) {
       const bool is_cut = tail != 0 && w + 1 == words.size();

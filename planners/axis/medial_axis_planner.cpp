@@ -157,7 +157,7 @@ class AxisGraph {
       const AxisEdge& e = axis.edges[i];
       if (e.clearance < least) continue;
       const AxisCurve curve = axis.curve(e);
-      links_.push_back({e.from, e.to, i, curve.first(), curve.last(), e.length, e.clearance});
+      push_asked(links_, {e.from, e.to, i, curve.first(), curve.last(), e.length, e.clearance}, execution_);
     }
     join(this->start(), least);
     join(this->goal(), least);
@@ -172,8 +172,10 @@ class AxisGraph {
   const std::vector<AxisLink>& links() const { return links_; }
   Graph graph() const {
     std::vector<Edge> edges;
+    execution_.reserve(links_.size() * sizeof(Edge));
     edges.reserve(links_.size());
     for (const AxisLink& l : links_) {
+      execution_.poll(edges.size());
       if (l.from != l.to) edges.push_back({l.from, l.to});
     }
     return assemble_graph(vertex_count(), edges, execution_);
@@ -181,6 +183,7 @@ class AxisGraph {
 
   /// Leaves the links of the largest clearance with which start and goal, which are joined, still are.
   void narrow_to_widest() {
+    execution_.reserve(links_.size() * sizeof(std::uint32_t) + vertex_count() * sizeof(VertexId));
     std::vector<std::uint32_t> order(links_.size());
     std::iota(order.begin(), order.end(), 0U);
     polled_sort(order.begin(), order.end(), execution_,
@@ -239,7 +242,7 @@ class AxisGraph {
     const AxisEdge& e = axis_.edges[edge];
     const AxisCurve part = axis_.curve(e).part(first, last, place(from), place(to));
     const double room = axis_.least_clearance(e, part);
-    if (room >= clearance) links_.push_back({from, to, edge, first, last, part.length(), room});
+    if (room >= clearance) push_asked(links_, {from, to, edge, first, last, part.length(), room}, execution_);
   }
   /// Links one of the ends with both vertices of its edge.
   void join(VertexId v, double clearance) {
@@ -250,13 +253,15 @@ class AxisGraph {
     add(v, e.to, place.edge, place.parameter, curve.last(), clearance);
   }
   void index_links() {
-    links_at_ = items_by_key(vertex_count(), [&](const auto& visit) {
+    execution_.reserve((vertex_count() + 2 * links_.size()) * sizeof(std::uint32_t));
+    const auto each = [&](const auto& visit) {
       for (std::uint32_t i = 0; i < links_.size(); ++i) {
         if (i % links_per_poll == 0) execution_.check();
         visit(links_[i].from, i);
         visit(links_[i].to, i);
       }
-    });
+    };
+    links_at_ = items_by_key(vertex_count(), each, [&] { execution_.check(); });
   }
 
   const MedialAxis& axis_;
@@ -382,6 +387,7 @@ class AxisPlanning {
     plan_.axis_clearance = infinity;
     std::vector<Vec2> path{start_, graph.place(found.path.front())};
     for (std::size_t i = 1; i < found.path.size(); ++i) {
+      if (i % 1024 == 0) execution_.reserve(2 * path.size() * sizeof(Vec2));
       const AxisLink& link = graph.link_between(found.path[i - 1], found.path[i]);
       plan_.axis_length += link.length;
       plan_.axis_clearance = std::min(plan_.axis_clearance, link.clearance);
@@ -390,6 +396,7 @@ class AxisPlanning {
     path.push_back(goal_);
     path.erase(std::unique(path.begin(), path.end()), path.end());
     if (path.size() == 1) path.push_back(path.front());
+    execution_.reserve(path.size() * sizeof(Vec2));
     solution_.path.assign(path.begin(), path.end());
     solution_.outcome = Outcome::solved;
     return true;
@@ -463,9 +470,10 @@ StraightLines axis_lines(const AxisRoadmap& roadmap, double clearance, const Exe
   const MedialAxis& axis = roadmap.axis;
   const double least = std::max(clearance, axis.resolution);
   StraightLines lines;
+  execution.reserve(axis.vertices.size() * sizeof(VertexId));
   std::vector<VertexId> point_of(axis.vertices.size(), no_vertex);  // made where a line first comes by
   const auto point = [&](Vec2 at) {
-    lines.points.push_back(at);
+    push_asked(lines.points, at, execution);
     return static_cast<VertexId>(lines.points.size() - 1);
   };
   const auto vertex = [&](VertexId v) {
@@ -484,7 +492,7 @@ StraightLines axis_lines(const AxisRoadmap& roadmap, double clearance, const Exe
     VertexId before = vertex(edge.from);
     for (std::size_t c = 1; c < corners.size(); ++c) {
       const VertexId next = c + 1 == corners.size() ? vertex(edge.to) : point(corners[c]);
-      if (before != next) lines.edges.push_back({std::min(before, next), std::max(before, next)});
+      if (before != next) push_asked(lines.edges, {std::min(before, next), std::max(before, next)}, execution);
       before = next;
     }
   }

@@ -344,6 +344,7 @@ Separation separation_of_parts(const Components& parts, VertexId start, VertexId
   const auto points_of = [&](VertexId end) {
     std::vector<PointOf<D>> points;
     for (VertexId v = 0; v < parts.label.size(); ++v) {
+      execution.poll(v);
       if (parts.connected(v, end)) push_asked(points, point(v), execution);
     }
     return points;

@@ -91,6 +91,8 @@ class SharedEdgeStates {
  public:
   /// Copies them: two bits an edge.
   explicit SharedEdgeStates(std::span<const std::uint64_t> words) : words_(words.begin(), words.end()) {}
+  /// Of these, which become its own.
+  explicit SharedEdgeStates(RawVector<std::uint64_t>&& words) : words_(std::move(words)) {}
 
   /// What is known of the edge now. Any thread may call it.
   EdgeState operator[](std::size_t end) const {
@@ -103,6 +105,8 @@ class SharedEdgeStates {
   }
   /// As they are now; while nobody learns.
   std::span<const std::uint64_t> words() const { return words_; }
+  /// The same for good: it is of no use then.
+  RawVector<std::uint64_t> taken() && { return std::move(words_); }
 
  private:
   std::atomic_ref<std::uint64_t> word_of(std::size_t end) const {

@@ -163,7 +163,7 @@ class JumpPoints {
   }
 
   /// Jump points with the cells between them.
-  RawVector<VertexId> with_steps(std::span<const VertexId> jump_points) const {
+  RawVector<VertexId> with_steps(std::span<const VertexId> jump_points, const Execution& execution) const {
     RawVector<VertexId> path;
     for (const VertexId to : jump_points) {
       if (!path.empty()) {
@@ -171,9 +171,12 @@ class JumpPoints {
         const Cell b = rows_.cell(to);
         const auto offset = static_cast<VertexId>(
             sign(std::int64_t{b.y} - a.y) * static_cast<std::int64_t>(rows_.stride()) + sign(std::int64_t{b.x} - a.x));
-        while (path.back() + offset != to) path.push_back(path.back() + offset);
+        while (path.back() + offset != to) {
+          execution.poll(path.size());
+          push_asked(path, path.back() + offset, execution);
+        }
       }
-      path.push_back(to);
+      push_asked(path, to, execution);
     }
     return path;
   }
@@ -238,9 +241,10 @@ class JumpPoints {
   FreeCells columns_;  // the same map, x and y exchanged
 };
 
-bool has_diagonal_steps(const Bitmap& blocked) {
-  const FreeCells cells(blocked);
+bool has_diagonal_steps(const Bitmap& blocked, const Execution& execution) {
+  const FreeCells cells(blocked, execution);
   for (std::uint32_t y = 0; y + 1 < cells.height(); ++y) {
+    execution.poll(y);
     for (std::uint32_t x = 0; x < cells.width(); x += Bitmap::word_bits) {
       const VertexId v = cells.number({x, y});
       const std::uint64_t both = cells.from(v) & cells.from(v + cells.stride());
@@ -252,7 +256,7 @@ bool has_diagonal_steps(const Bitmap& blocked) {
 }
 
 bool cells_connect(const Bitmap& blocked, Cell start, Cell goal, bool squeezing, const Execution& execution) {
-  const FreeCells cells(blocked);
+  const FreeCells cells(blocked, execution);
   const Steps steps(cells, squeezing ? StepRule::eight_squeezing : StepRule::four, Diagonal::unit);
   const VertexId from = cells.number(start);
   const VertexId to = cells.number(goal);
@@ -272,7 +276,8 @@ double cost_of(const std::vector<Cell>& cells, Diagonal diagonal) {
 }
 
 struct GridSearch::Scratch {
-  explicit Scratch(const Bitmap& map) : blocked(map), cells(map) {}
+  Scratch(const Bitmap& map, const Execution& execution)
+      : blocked((execution.reserve(map.bytes()), map)), cells(map, execution) {}
 
   SearchResult search(VertexId start, VertexId goal, const GridSearchOptions& options, const Execution& execution) {
     const auto should_stop = [&] { return execution.should_stop(); };
@@ -288,7 +293,7 @@ struct GridSearch::Scratch {
     if (is_jumping) {
       const auto successors = [&](VertexId v, const auto& visit) { jumps->visit(v, state.parent(v), goal, visit); };
       SearchResult result = best_first(start, goal, successors, at_least, queue, state, should_stop);
-      result.path = jumps->with_steps(result.path);
+      result.path = jumps->with_steps(result.path, execution);
       return result;
     }
     const auto remaining = [informed = options.method == GridMethod::astar, at_least](VertexId v) {
@@ -304,7 +309,8 @@ struct GridSearch::Scratch {
   std::optional<JumpPoints> jumps;  // made where it is first asked for
 };
 
-GridSearch::GridSearch(const Bitmap& blocked) : scratch_(std::make_unique<Scratch>(blocked)) {}
+GridSearch::GridSearch(const Bitmap& blocked, const Execution& execution)
+    : scratch_(std::make_unique<Scratch>(blocked, execution)) {}
 GridSearch::~GridSearch() = default;
 
 GridPath GridSearch::find(Cell start, Cell goal, const GridSearchOptions& options, const Execution& execution) {
@@ -327,7 +333,10 @@ GridPath GridSearch::find(Cell start, Cell goal, const GridSearchOptions& option
   path.expanded = result.expanded;
   execution.reserve(result.path.size() * sizeof(Cell));
   path.cells.reserve(result.path.size());
-  for (const VertexId v : result.path) path.cells.push_back(cells.cell(v));
+  for (const VertexId v : result.path) {
+    execution.poll(path.cells.size());
+    path.cells.push_back(cells.cell(v));
+  }
   path.cost = cost_of(path.cells, options.diagonal);
   return path;
 }

@@ -52,8 +52,9 @@ struct GridPath {
 /// A map made ready for searches. Owns its scratch: one at a time, one object a thread.
 class GridSearch {
  public:
-  /// blocked: set bits are blocked; what lies outside is blocked. Throws InputError for maps of about 2^32 cells.
-  explicit GridSearch(const Bitmap& blocked);
+  /// blocked: set bits are blocked; what lies outside is blocked. Throws InputError for maps of about 2^32 cells,
+  /// Stopped.
+  explicit GridSearch(const Bitmap& blocked, const Execution& execution = {});
   ~GridSearch();
 
   /// Throws InputError for cells outside the map and for jump points with other diagonals than sqrt2, Stopped.
@@ -65,8 +66,8 @@ class GridSearch {
 };
 
 /// Is there a square of two by two free cells? Without one no diagonal step is allowed, and breadth-first search finds
-/// shortest paths whatever diagonals cost. O(cells / 64).
-bool has_diagonal_steps(const Bitmap& blocked);
+/// shortest paths whatever diagonals cost. O(cells / 64). Throws Stopped.
+bool has_diagonal_steps(const Bitmap& blocked, const Execution& execution = {});
 
 /// Does a way lead from cell to cell, over common sides, or (squeezing) over common corners too? O(cells). Throws
 /// Stopped.

@@ -95,11 +95,12 @@ class LayerSteps {
 /// positions free at some heading.
 SearchState plane_costs(const LayerSteps& steps, std::span<const LayerEnd> goals, const Execution& execution) {
   const HeadingLayers& layers = steps.layers();
-  Bitmap free(layers.width, layers.height);
+  execution.reserve(Bitmap::bytes_for(layers.width, layers.height));
+  Bitmap free(layers.width, layers.height, false, [&] { execution.check(); });
   for (std::uint32_t k = 0; k < layers.angles; ++k) {
-    execution.check();
     const Bitmap& blocked = layers.bitmaps[layers.standing[k]];
     for (std::uint32_t j = 0; j < layers.height; ++j) {
+      execution.poll(j);
       const auto to = free.row(j);
       const auto from = blocked.row(j);
       for (std::size_t w = 0; w < to.size(); ++w) to[w] |= ~from[w];
@@ -289,8 +290,9 @@ void for_each_reached(const HeadingLayers& layers, std::span<const LayerEnd> sta
                       const Execution& execution, const std::function<void(const LayerState&)>& visit) {
   check(layers, starts, {}, options);
   const LayerSteps steps(layers, options);
-  execution.reserve(layers.states() / 8);
-  Bitmap met(layers.width * layers.angles, layers.height);  // a row of positions after the other, heading by heading
+  const std::uint32_t columns = layers.width * layers.angles;  // rows of positions, heading after heading
+  execution.reserve(Bitmap::bytes_for(columns, layers.height));
+  Bitmap met(columns, layers.height, false, [&] { execution.check(); });
   std::vector<LayerState> open;
   const auto meet = [&](const LayerState& s) {
     const std::uint32_t column = s.k * layers.width + s.i;

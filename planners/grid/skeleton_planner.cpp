@@ -55,12 +55,11 @@ class Thinning {
       : field_(field),
         ends_(ends),
         execution_(execution),
-        width_(blocked.width()),
-        rest_(blocked.width(), blocked.height(), true),
-        waits_(blocked.width(), blocked.height()),
+        width_((execution.reserve(2 * blocked.bytes()), blocked.width())),
+        rest_(blocked.width(), blocked.height(), true, [&] { execution.check(); }),
+        waits_(blocked.width(), blocked.height(), false, [&] { execution.check(); }),
         kept_(kept) {
-    execution.reserve(2 * blocked.bytes());
-    rest_.remove(blocked);
+    rest_.remove(blocked, [&] { execution.check(); });
   }
 
   Bitmap run() {
@@ -121,8 +120,8 @@ class Thinning {
   /// The cells at a border; those inside follow when their neighbours go.
   void line_up() {
     for (std::uint32_t y = 0; y < rest_.height(); ++y) {
-      execution_.check();
       for (std::uint32_t x = 0; x < width_; ++x) {
+        execution_.poll(x);
         if (rest_.test(x, y) && around({x, y}) != 255U) wait({x, y});
       }
     }
@@ -152,12 +151,14 @@ class NumberedCells {
   NumberedCells(Bitmap cells, const Execution& execution) : bits_(std::move(cells)) {
     std::uint32_t count = 0;
     for (const std::uint64_t word : bits_.words()) {
+      execution.poll(before_.size());
       push_asked(before_, count, execution);
       count += static_cast<std::uint32_t>(std::popcount(word));
     }
     execution.reserve(count * sizeof(Cell));
     cells_.reserve(count);
     for (std::uint32_t y = 0; y < bits_.height(); ++y) {
+      execution.check();
       bits_.for_each_in_row(y, [&](std::uint32_t x) { cells_.push_back({x, y}); });
     }
   }
@@ -217,7 +218,12 @@ class SkeletonPlan {
     }
     link();
     if (steps != nullptr) {
-      for (const Edge& e : edges_) steps->push_back({cells_->cell(e.from), cells_->cell(e.to)});
+      execution_.reserve(edges_.size() * sizeof(steps->front()));
+      steps->reserve(edges_.size());
+      for (const Edge& e : edges_) {
+        execution_.poll(steps->size());
+        steps->push_back({cells_->cell(e.from), cells_->cell(e.to)});
+      }
     }
     if (joined()) search();
     return std::move(plan_);
@@ -259,7 +265,10 @@ class SkeletonPlan {
   std::vector<std::uint32_t> widths() const {
     std::vector<std::uint32_t> widths;
     widths.reserve(cells_->size());
-    for (VertexId v = 0; v < cells_->size(); ++v) widths.push_back(squared(v));
+    for (VertexId v = 0; v < cells_->size(); ++v) {
+      execution_.poll(v);
+      widths.push_back(squared(v));
+    }
     join_end_to_axis(start(), widths);
     join_end_to_axis(goal(), widths);
     return widths;
@@ -267,7 +276,9 @@ class SkeletonPlan {
 
   void join_end_to_axis(VertexId end, std::vector<std::uint32_t>& widths) const {
     VertexId before = no_vertex;
+    std::uint64_t steps = 0;
     for (VertexId v = end;;) {
+      execution_.poll(++steps);
       widths[v] = DistanceField::far;
       VertexId next = no_vertex;
       int ways = 0;
@@ -327,7 +338,10 @@ class SkeletonPlan {
     if (result.status != SearchStatus::found) return;
     plan_.outcome = Outcome::solved;
     std::uint32_t least = DistanceField::far;
+    execution_.reserve(result.path.size() * sizeof(Cell));
+    plan_.path.reserve(result.path.size());
     for (const VertexId v : result.path) {
+      execution_.poll(plan_.path.size());
       plan_.path.push_back(cells_->cell(v));
       least = std::min(least, squared(v));
     }
@@ -408,6 +422,7 @@ class LinesOfSkeleton {
   void cut_corners() {
     std::size_t kept = 1;
     for (std::size_t i = 1; i < chain_.size(); ++i) {
+      execution_.poll(i);
       if (i + 1 < chain_.size() && is_diagonal(chain_[kept - 1], chain_[i + 1])) ++i;
       chain_[kept++] = chain_[i];
     }
@@ -417,6 +432,7 @@ class LinesOfSkeleton {
   void add_lines() {
     VertexId begin = chain_.front();
     for (std::size_t i = 1; i < chain_.size(); ++i) {
+      execution_.poll(i);
       const bool goes_on = i + 1 < chain_.size() && step(chain_[i - 1], chain_[i]) == step(chain_[i], chain_[i + 1]);
       if (goes_on) continue;
       if (begin != chain_[i]) push_asked(lines_, {std::min(begin, chain_[i]), std::max(begin, chain_[i])}, execution_);
@@ -436,7 +452,10 @@ class LinesOfSkeleton {
       return static_cast<VertexId>(std::lower_bound(points_.begin(), points_.end(), v) - points_.begin());
     };
     SkeletonLines result;
-    for (const VertexId v : points_) result.cells.push_back(cells_.cell(v));
+    for (const VertexId v : points_) {
+      execution_.poll(result.cells.size());
+      result.cells.push_back(cells_.cell(v));
+    }
     for (std::size_t i = 0; i < lines_.size(); ++i) {
       execution_.poll(i);
       result.edges.push_back({number(lines_[i].from), number(lines_[i].to)});

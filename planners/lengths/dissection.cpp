@@ -25,6 +25,14 @@ struct PlanarRegion {
 /// Which side of a cut a junction is on.
 enum class CutSide : std::uint8_t { inside, outside, cut };
 
+/// Small regions are many, and none of them is worth a look at the clock.
+template <class T>
+void assign_large(RawVector<T>& block, std::size_t n, T value, const Execution& execution) {
+  constexpr std::size_t large = std::size_t{1} << 16;
+  if (n < large) return block.assign(n, value);
+  assign_polled(block, n, value, [&] { execution.check(); });
+}
+
 /// How a balanced set of junctions that cuts a region in two is found. Between the chains lie faces; a closed curve
 /// through faces that crosses k chains cuts the map with k junctions or fewer. Shortest curves are shortest paths in
 /// the dual graph, whose vertices are the faces (Reif 1983): a breadth-first search from the longest face, which is
@@ -91,9 +99,9 @@ class RegionCut {
 
   void search_faces(Face first) {
     constexpr std::uint32_t unseen = ~std::uint32_t{0};
-    distance_.assign(first_.size(), unseen);
+    assign_large(distance_, first_.size(), unseen, execution_);
     entered_.resize(first_.size());
-    in_search_.assign(region_->size(), 0);
+    assign_large(in_search_, region_->size(), std::uint8_t{0}, execution_);
     queue_.resize(first_.size());
     std::size_t end = 0;
     queue_[end++] = first;
@@ -139,7 +147,7 @@ class RegionCut {
       }
     }
     assert(end == count);
-    weight_.assign(count, 1);
+    assign_large(weight_, count, std::uint32_t{1}, execution_);
     for (std::size_t i = count; i-- > 1;) {
       execution_.poll(i);
       weight_[above_[order_[i]] / 4] += weight_[order_[i]];
@@ -172,7 +180,7 @@ class RegionCut {
   }
 
   void mark_inside(HalfEdge crossing) {
-    side_.assign(region_->size(), CutSide::outside);
+    assign_large(side_, region_->size(), CutSide::outside, execution_);
     for (std::size_t i = 1; i < order_.size(); ++i) {
       execution_.poll(i);
       const JunctionId v = order_[i];
@@ -241,6 +249,7 @@ class RegionDivision {
   std::vector<PlanarRegion> divide(PlanarRegion region, RawVector<JunctionId>& members) {
     const RawVector<CutSide>& side = cut_.cut(region);
     for (std::size_t v = 0; v < region.size(); ++v) {
+      execution_.poll(v + 1);
       if (side[v] == CutSide::cut) members.push_back(region.junction[v]);
     }
     return split(region, side);
@@ -272,7 +281,7 @@ class RegionDivision {
   static constexpr std::uint32_t none = ~std::uint32_t{0};
 
   void number_parts(const PlanarRegion& region, const RawVector<CutSide>& side) {
-    part_.assign(region.size(), none);
+    assign_large(part_, region.size(), none, execution_);
     stack_.resize(region.size());
     sizes_.clear();
     for (JunctionId first = 0; first < region.size(); ++first) {
@@ -352,7 +361,8 @@ class Dissector {
       std::copy_n(graph_.twin.data() + 4 * v, 4, whole.twin.data() + 4 * v);
       whole.slots[v] = slots_of(graph_, v);
     }
-    const RawVector<CutSide> nothing_cut(graph_.size(), CutSide::outside);
+    RawVector<CutSide> nothing_cut;
+    assign_large(nothing_cut, graph_.size(), CutSide::outside, execution_);
     return {{}, as_large(RegionDivision(execution_).split(whole, nothing_cut)), {}};
   }
 

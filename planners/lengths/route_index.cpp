@@ -52,6 +52,7 @@ class PieceBuilder {
 
   void find_exits() {
     const std::size_t tiles = places_.tile_count();
+    execution_.reserve(tiles * (4 * sizeof(std::uint64_t) + sizeof(std::uint32_t)));
     RawVector<std::uint64_t> exits(4 * tiles);
     RawVector<std::uint32_t> first(tiles + 1);
     first[tiles] = 0;
@@ -71,7 +72,10 @@ class PieceBuilder {
   void follow_exits(std::size_t count) {
     exits_.resize(count);
     RawVector<PieceId> same(count);
-    for (std::size_t i = 0; i < count; ++i) same[i] = static_cast<PieceId>(i);
+    for (std::size_t i = 0; i < count; ++i) {
+      execution_.poll(i);
+      same[i] = static_cast<PieceId>(i);
+    }
     arrays_.piece = ArrayOrView<PieceId>(std::move(same));
     const PieceForest forest(places_, marks_, arrays_);
     for_chunks(places_.tile_count(), tile_grain, execution_, [&](Range r) {
@@ -136,6 +140,7 @@ class PieceBuilder {
       const PieceId up = parent == no_piece ? no_piece : number[parent];
       std::uint32_t depth = up == no_piece ? 0 : pieces[up].depth;
       for (PieceId p = top; p != no_piece; p = heavy_[p]) {
+        execution_.poll(next);
         depth += exits_[p].length;
         pieces[next] = {head, up, depth, exits_[p].door};
         number[p] = next++;
@@ -395,7 +400,7 @@ RouteIndex::RouteIndex(LatticePassages passages, const RouteIndexOptions& option
       build_fronts(graph, dissect(graph, options.leaf == 0 ? leaf_size(graph) : options.leaf, execution), execution);
   arrays_.marks = ArrayOrView<std::uint64_t>(std::move(marks));
   mark_gates(execution);
-  find_fronts();
+  find_fronts(execution);
   sound_ = LastingMarks(arrays_.fronts.fronts.size());
 }
 
@@ -405,7 +410,7 @@ RouteIndex::RouteIndex(LatticePassages passages, RouteArrays arrays)
       arrays_(std::move(arrays)),
       sound_(arrays_.fronts.fronts.size()) {
   check_route_sizes(places_, arrays_);
-  find_fronts();
+  find_fronts({});
 }
 
 GateRank RouteIndex::gate_at(LatticePlace p) const {
@@ -426,11 +431,14 @@ void RouteIndex::check_front(FrontId number) const {
   sound_.set(number);
 }
 
-void RouteIndex::find_fronts() {
+void RouteIndex::find_fronts(const Execution& execution) {
   const std::span<const Front> fronts = arrays_.fronts.fronts.span();
-  front_near_.resize((arrays_.fronts.gate_place.size() + gates_a_look - 1) / gates_a_look);
+  const std::size_t looks = (arrays_.fronts.gate_place.size() + gates_a_look - 1) / gates_a_look;
+  execution.reserve(looks * sizeof(FrontId));
+  front_near_.resize(looks);
   FrontId front = 0;
   for (std::size_t i = 0; i < front_near_.size(); ++i) {
+    execution.poll(i);
     while (front + 1 < fronts.size() && fronts[front + 1].first <= i * gates_a_look) ++front;
     front_near_[i] = front;
   }

@@ -178,7 +178,7 @@ class RouteIndex {
   }
 
   void mark_gates(const Execution& execution);
-  void find_fronts();
+  void find_fronts(const Execution& execution);
   void check_front(FrontId number) const;
 
   LatticePassages passages_;

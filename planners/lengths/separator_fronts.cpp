@@ -10,6 +10,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "parallel/asked_memory.hpp"
 #include "parallel/chunks.hpp"
 
 namespace warren {
@@ -53,6 +54,7 @@ constexpr GateRank no_rank = ~GateRank{0};
 constexpr std::size_t block = 32;  // gates: their rows of up to some thousand entries stay in the second-level cache
 constexpr std::size_t front_row_grain = 32;  // rows a chunk
 constexpr std::size_t many_rows = 256;       // are worth waking other threads for
+constexpr std::size_t rows_per_poll = 64;    // each of a few thousand entries at most
 
 /// The gate that a way goes over; or hop_bit and the number of a hop.
 using WayBy = std::uint32_t;
@@ -429,7 +431,8 @@ class FrontBuilder {
   }
 
   void rank_gates() {
-    rank_.assign(graph_.size(), no_rank);
+    execution_.reserve(graph_.size() * sizeof(GateRank) + dissection_.node.size() * sizeof(NodePlace));
+    assign_polled(rank_, graph_.size(), no_rank, [&] { execution_.check(); });
     place_.reserve(dissection_.node.size());
     std::vector<std::size_t> open;
     std::uint64_t member = 0;
@@ -447,7 +450,7 @@ class FrontBuilder {
       if (n.children > 0) {
         for (const JunctionId v : members(node)) {
           rank_[v] = next++;
-          gate_place_.push_back(graph_.place[v]);
+          push_asked(gate_place_, graph_.place[v], execution_);
         }
       }
       member += n.members;
@@ -479,6 +482,7 @@ class FrontBuilder {
     open.erase(open.end() - static_cast<std::ptrdiff_t>(n.children), open.end());
     FrontMatrix rest(bounds.size(), execution_);
     for (std::size_t i = 0; i < bounds.size(); ++i) {
+      if (i % rows_per_poll == rows_per_poll - 1) execution_.check();
       for (std::size_t j = i + 1; j < bounds.size(); ++j) rest.lessen_as(i, j, matrix, n.members + i, n.members + j);
     }
     open.push_back({bounds, std::move(rest)});
@@ -512,6 +516,7 @@ class FrontBuilder {
     std::vector<std::size_t> index(child.bounds.size());
     for (std::size_t i = 0; i < index.size(); ++i) index[i] = index_of(child.bounds[i], node, bounds);
     for (std::size_t i = 0; i < index.size(); ++i) {
+      if (i % rows_per_poll == rows_per_poll - 1) execution_.check();
       for (std::size_t j = i + 1; j < index.size(); ++j) matrix.lessen_as(index[i], index[j], child.lengths, i, j);
     }
   }

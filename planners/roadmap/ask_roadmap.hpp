@@ -20,6 +20,7 @@
 
 #include "core/base/solution.hpp"
 #include "core/base/types.hpp"
+#include "parallel/asked_memory.hpp"
 #include "planners/graph/any_world.hpp"
 #include "planners/graph/assemble_graph.hpp"
 #include "planners/graph/hierarchy.hpp"
@@ -43,7 +44,7 @@ struct AskedRoadmap : NotCopied {
       : world(its_world),
         states(std::move(its_states)),
         candidates(std::move(its_candidates)),
-        known(edge_states),
+        known((execution.reserve(edge_states.size_bytes()), edge_states)),
         rule(its_rule),
         is_lazy(lazy),
         hierarchy(its_hierarchy),
@@ -256,7 +257,7 @@ class Ask {
     solution_.counters.expanded += found.expanded;
     if (found.path.empty()) return;
     solution_.outcome = Outcome::solved;
-    for (const VertexId v : found.path) solution_.path.push_back(state(v));
+    for (const VertexId v : found.path) push_asked(solution_.path, state(v), execution_);
   }
   SearchResult search_plainly(VertexId from, VertexId to, SearchState& state) {
     AskedNeighbours seen(*this);
@@ -346,7 +347,8 @@ class Ask {
   }
   /// The free edges, those of start and goal among them; all of them are asked about first where they lead one way.
   Graph free_graph() const {
-    execution_.reserve((roadmap_.candidates.targets().size() + 2 * end_edges_.size()) * sizeof(VertexId));
+    execution_.reserve((vertex_count() + 1) * sizeof(EdgeEnd) + 2 * end_edges_.size() * sizeof(Edge) +
+                       (roadmap_.candidates.targets().size() + 2 * end_edges_.size()) * sizeof(VertexId));
     std::vector<Edge> sorted;
     auto query = world_.make_query();
     for (const Edge& e : end_edges_) {
@@ -359,8 +361,13 @@ class Ask {
     return part_with_edges(roadmap_.candidates, is_free, vertex_count(), sorted, execution_);
   }
   RawVector<State> all_states() const {
-    RawVector<State> states(roadmap_.states.begin(), roadmap_.states.end());
-    states.insert(states.end(), ends_.begin(), ends_.end());
+    execution_.reserve(vertex_count() * sizeof(State));
+    RawVector<State> states;
+    states.reserve(vertex_count());
+    for (VertexId v = 0; v < vertex_count(); ++v) {
+      execution_.poll(v);
+      states.push_back(state(v));
+    }
     return states;
   }
   const AskedRoadmap<W>& roadmap_;

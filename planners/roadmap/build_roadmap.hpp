@@ -86,10 +86,13 @@ RawVector<std::uint64_t> check_edges(const W& world, std::span<const typename W:
   constexpr std::size_t rows_per_poll = grain / 64;
   const std::size_t n = graph.vertex_count();
   const std::size_t words = edge_state_words(graph.targets().size());
-  execution.reserve(3 * words * sizeof(std::uint64_t));
-  RawVector<std::uint64_t> nothing;
-  if (before.empty()) assign_polled(nothing, words, std::uint64_t{0}, [&] { execution.check(); });
-  const SharedEdgeStates answers(before.empty() ? std::span<const std::uint64_t>(nothing) : before);
+  execution.reserve(words * sizeof(std::uint64_t));
+  RawVector<std::uint64_t> first(words);
+  for (std::size_t i = 0; i < words; ++i) {
+    execution.poll(i);
+    first[i] = before.empty() ? 0 : before[i];
+  }
+  SharedEdgeStates answers(std::move(first));
   std::vector<Counters> done(chunk_count(n, grain));
   for_chunks(n, grain, execution, [&](Range r) {
     auto query = world.make_query();
@@ -102,7 +105,7 @@ RawVector<std::uint64_t> check_edges(const W& world, std::span<const typename W:
     counts.refused = refused_motions(query);
   });
   for (const Counters& part : done) counters += part;
-  return {answers.words().begin(), answers.words().end()};
+  return std::move(answers).taken();
 }
 
 template <class State>
@@ -181,7 +184,9 @@ class RoadmapBuild {
     if (check) {
       built_.edge_states = check_edges(world_, built_.states, built_.candidates, execution_, built_.counters, known_);
     } else {
-      built_.edge_states.assign(edge_state_words(built_.candidates.targets().size()), 0);
+      const std::size_t words = edge_state_words(built_.candidates.targets().size());
+      execution_.reserve(words * sizeof(std::uint64_t));
+      assign_polled(built_.edge_states, words, std::uint64_t{0}, [&] { execution_.check(); });
     }
   }
   void find_candidates() {
@@ -232,6 +237,7 @@ class RoadmapBuild {
         if (edge_state(built_.edge_states, end++) == EdgeState::free) join(w);
       }
     });
+    execution_.reserve((n + probes) * sizeof(VertexId));
     std::vector<VertexId> first_with(n + probes, no_vertex);
     std::vector<VertexId> joined;
     for (std::size_t i = 0; i < probes; ++i) {

@@ -60,7 +60,9 @@ class OneWayPlan final : public Rounds<W> {
     edges.push_back(edges_to_goal(index, rule));
     solution_.counters.neighbour_queries += begins + 1;
     candidates_ = one_way_graph(states_.size(), edges, execution_);
-    known_.assign(edge_state_words(candidates_.targets().size()), 0);  // unchecked
+    const std::size_t words = edge_state_words(candidates_.targets().size());
+    execution_.reserve(words * sizeof(std::uint64_t));
+    assign_polled(known_, words, std::uint64_t{0}, [&] { execution_.check(); });  // unchecked
   }
   /// And the edge from start to goal.
   RawVector<Edge> edges_to_goal(const StateIndex<W>& index, const ConnectionRule& rule) {

@@ -64,7 +64,10 @@ class MotionTree {
     execution.reserve(states_.size() * sizeof(Embedding));
     std::vector<Embedding> all;
     all.reserve(states_.size());
-    for (const State& state : states_) all.push_back(embedded(*world_, state));
+    for (const State& state : states_) {
+      execution.poll(all.size());
+      all.push_back(embedded(*world_, state));
+    }
     return all;
   }
 
@@ -181,6 +184,7 @@ void keep_trees(std::span<const MotionTree<W>> trees, PlannedRoadmap<typename W:
   for (const MotionTree<W>& tree : trees) {
     const auto first = static_cast<VertexId>(roadmap.states.size());
     for (VertexId v = 0; v < tree.size(); ++v) {
+      execution.poll(v);
       roadmap.states.push_back(tree.state(v));
       if (tree.parent(v) == no_vertex) continue;
       edges.push_back({first + tree.parent(v), first + v});
@@ -239,12 +243,14 @@ std::optional<std::size_t> race(std::vector<Search>& searches, std::uint64_t& ba
   }
 }
 
-/// The goals that are free.
+/// The goals that are free. Throws Stopped.
 template <World W>
-std::vector<typename W::State> free_states(const W& world, std::span<const typename W::State> states) {
+std::vector<typename W::State> free_states(const W& world, std::span<const typename W::State> states,
+                                           const Execution& execution) {
   auto query = world.make_query();
   std::vector<typename W::State> free;
   for (const auto& state : states) {
+    execution.check();
     if (world.is_free(state, query)) free.push_back(state);
   }
   return free;
@@ -257,15 +263,14 @@ Solution<typename W::State> race_trees(const W& world, const typename W::State& 
                                        const Execution& execution, PlannedRoadmap<typename W::State>* keep) {
   options.validate();
   Solution<typename W::State> solution;
-  const auto free_goals = free_states(world, goals);
-  const bool starts = !free_states(world, std::span(&start, 1)).empty();
-  if (!starts || free_goals.empty()) {
-    solution.outcome = starts ? Outcome::goal_blocked : Outcome::start_blocked;
-    return solution;
-  }
   std::vector<Search> searches;
   try {
-    execution.check();
+    const auto free_goals = free_states(world, goals, execution);
+    const bool starts = !free_states(world, std::span(&start, 1), execution).empty();
+    if (!starts || free_goals.empty()) {
+      solution.outcome = starts ? Outcome::goal_blocked : Outcome::start_blocked;
+      return solution;
+    }
     const StageTimer timer(execution, "search", solution.seconds.search);
     const double step = options.step ? *options.step : usual_step(world);
     for (std::uint32_t i = 0; i < options.trees; ++i) searches.emplace_back(world, start, free_goals, options, step, i);

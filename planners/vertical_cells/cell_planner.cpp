@@ -122,6 +122,7 @@ Path<Vec2> shortest_path_through(const CellRoute& route, const CellDecomposition
 // loop isn't core's best_first. Time: O(nodes log nodes), usually few nodes a cell.
 
 constexpr std::uint64_t nodes_per_poll = 1024;
+constexpr std::size_t bytes_a_node = 128;  // that are kept of it in small lists of bends and rays, more or less
 constexpr double rounding = 1e-12;  // of lengths, relative: ways to a corner that differ by less are equally long
 
 /// A ray that bounds what a root sees: through a corner, or the way on which the root was reached, going on.
@@ -196,7 +197,7 @@ class TautSearch {
       const Waiting next = queue_.top();
       queue_.pop();
       if (next.at_goal) return route_to(next.node);
-      if (++expanded_ % nodes_per_poll == 0) execution_.check();
+      if (++expanded_ % nodes_per_poll == 0) execution_.reserve(nodes_per_poll * bytes_a_node);
       expand(next.node, next.estimate);
     }
     return {start_, goal_, {}, {}};
@@ -274,7 +275,7 @@ class TautSearch {
       if (b.door != door || b.on_left != on_left || b.length > length * (1.0 + rounding)) continue;
       if (orient2d(b.from, at.to, node.root) * (on_left ? 1 : -1) <= 0) return false;
     }
-    bends_[at.door].push_back({door, length, node.root, on_left});
+    push_asked(bends_[at.door], {door, length, node.root, on_left}, execution_);
     return true;
   }
 
@@ -291,7 +292,7 @@ class TautSearch {
     for (const LastRay& known : last_rays_[door]) {
       if (known.root_door == node.root_door && on_line(known.from, known.to, l)) return true;
     }
-    last_rays_[door].push_back({node.root_door, l.from, l.to});
+    push_asked(last_rays_[door], {node.root_door, l.from, l.to}, execution_);
     return false;
   }
 
@@ -479,8 +480,11 @@ class CellPlanning {
   void connect_cells() {
     const StageTimer timer(execution_, "connect", solution_.seconds.connect, cells_->doors.size());
     std::vector<Edge> edges;
-    edges.reserve(cells_->doors.size() + start_place().cells.size() + goal_place().cells.size());
+    const std::size_t most = cells_->doors.size() + start_place().cells.size() + goal_place().cells.size();
+    execution_.reserve(most * sizeof(Edge));
+    edges.reserve(most);
     for (const Door& door : cells_->doors) {
+      execution_.poll(edges.size());
       if (!door.shut) edges.push_back({door.left, door.right});
     }
     for (const VertexId cell : start_place().cells) edges.push_back({start_vertex(), cell});
@@ -498,6 +502,7 @@ class CellPlanning {
     const auto points_of = [&](VertexId vertex, Vec2 end) {
       std::vector<Vec2> points{end};
       for (std::uint32_t d = 0; d < cells_->doors.size(); ++d) {
+        execution_.poll(d);
         const Door& door = cells_->doors[d];
         if (!door.shut && parts.connected(door.left, vertex)) push_asked(points, doors.middle(d), execution_);
       }

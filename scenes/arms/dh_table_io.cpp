@@ -29,7 +29,7 @@ std::vector<double> numbers_left(Fields& fields, std::size_t least, std::size_t 
   std::vector<double> found;
   while (!fields.done() && found.size() <= most) found.push_back(fields.number());
   if (found.size() < least || found.size() > most) {
-    fields.place().fail("expected `" + std::string(usage) + "`", std::to_string(found.size()) + " numbers");
+    fields.place().fail("expected `" + std::string(usage) + "`", scene_text::numbers_text(found.size()));
   }
   return found;
 }

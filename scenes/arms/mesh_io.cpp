@@ -290,7 +290,8 @@ class ColladaReader {
     }
     const auto said = xml_.number(array, "count");
     if (count % 3 != 0 || (said && *said != static_cast<double>(count)))
-      xml_.fail(array, "expected three numbers a point, and as many as `count` says", fmt::format("{} numbers", count));
+      xml_.fail(array, "expected three numbers a point, and as many as `count` says",
+                scene_text::numbers_text(static_cast<std::size_t>(count)));
   }
   /// Polygons of as many corners as `sizes` says, its last for all that follow; without any: all of a <p> in one.
   void add_polygons(pugi::xml_node part, std::string_view sizes, std::size_t first) {

@@ -250,7 +250,8 @@ class ArmModelMaker {
       if (joints[j].leader != no_urdf_part)
         held_[j] = joints[j].multiplier * held_[joints[j].leader] + joints[j].offset;
       if (joints[j].kind == UrdfJointKind::floating)
-        model_.assumed.push_back(fmt::format("joint {}, which floats, is where its origin is", joints[j].name));
+        push_asked(model_.assumed, fmt::format("joint {}, which floats, is where its origin is", joints[j].name),
+                   execution_);
     }
   }
 

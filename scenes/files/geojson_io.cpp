@@ -25,6 +25,7 @@
 #include "parallel/asked_memory.hpp"
 #include "scenes/files/plane_formats_io.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
+#include "scenes/text/human_units.hpp"
 #include "scenes/text/json_text.hpp"
 #include "scenes/text/output_file_io.hpp"
 #include "scenes/text/scene_text.hpp"
@@ -228,10 +229,10 @@ class Reader {
   void add_rings(const Coordinates& c) {
     for (std::size_t i = 0; i < c.chains.size(); ++i) {
       auto [ring, line] = c.chains[i];
-      const bool closed = ring.size() > 1 && ring.front() == ring.back();
+      const bool closed = ring.front() == ring.back();
       if (!bare_ && (!closed || ring.size() < 4)) {
         fail_at(line, "a ring needs four positions or more, the last one equal to the first",
-                closed ? fmt::format("{} positions", ring.size()) : "an open ring");
+                closed ? counted(ring.size(), "position", "positions") : "an open ring");
       }
       const bool outer = bare_ || (c.depth == 3 ? i == 0 : std::binary_search(c.groups.begin(), c.groups.end(), i));
       if (!bare_) ring.pop_back();

@@ -114,7 +114,7 @@ void hand_rows_over(const ImageHeader& header, bool lowest_first, const ImageSin
   sink.begin(header);
   const std::size_t count = std::size_t{header.channels} * header.width;
   execution.reserve(sizeof(std::uint16_t) * count);
-  std::vector<std::uint16_t> samples(count);
+  RawVector<std::uint16_t> samples(count);
   for (std::uint32_t i = 0; i < header.height; ++i) {
     fill(i, samples.data());
     sink.row({lowest_first ? header.height - 1 - i : i, 0, 1, samples});
@@ -200,14 +200,16 @@ void read_binary(const InputFile& file, const ImageHeader& header, std::string_v
   check_pixels_are_there(file, header, row_bytes, pixels.size());
   std::size_t forgotten = 0;
   hand_rows_over(header, false, sink, execution, [&](std::uint32_t y, std::uint16_t* samples) {
-    execution.check();
     forget_all_but(pixels.substr(y * row_bytes), file, forgotten);
     const std::string_view row = pixels.substr(y * row_bytes, row_bytes);
     const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(row[at]); };
     unsigned highest = 0;
-    for (std::size_t x = 0; x < header.width; ++x) {
-      samples[x] = static_cast<std::uint16_t>(wide ? byte(2 * x) << 8 | byte(2 * x + 1) : byte(x));
-      highest = std::max<unsigned>(highest, samples[x]);
+    for (std::size_t x = 0; x < header.width;) {
+      execution.check();
+      for (const std::size_t end = std::min<std::size_t>(x + 65536, header.width); x < end; ++x) {
+        samples[x] = static_cast<std::uint16_t>(wide ? byte(2 * x) << 8 | byte(2 * x + 1) : byte(x));
+        highest = std::max<unsigned>(highest, samples[x]);
+      }
     }
     if (highest > header.maximum) {
       throw InputError(file.name(),
@@ -277,9 +279,11 @@ void write_map_pgm(const OccupancyMap& map, const std::string& path, UnknownCell
   const char grey = unknown == UnknownCells::grey ? static_cast<char>(205) : '\0';
   OutputFile file(path, execution);
   file.write(fmt::format("P5\n# CREATOR: warren {:.3f} m/pix\n{} {}\n255\n", map.cell, map.width(), map.height()));
+  execution.reserve(map.width());
   std::string row(map.width(), free);
   for (std::uint32_t y = map.height(); y-- > 0;) {
     for (std::uint32_t x = 0; x < map.width(); ++x) {
+      execution.poll(x);
       row[x] = map.unknown.holds(x, y) ? grey : map.blocked.test(x, y) ? '\0' : free;
     }
     file.write(row);
@@ -301,8 +305,10 @@ bool is_dark(const ImageHeader& header, const std::uint16_t* pixel) {
   return is_dark(alpha * sum + (header.maximum - alpha) * brightest, header.maximum * brightest);
 }
 
-void set_dark_greys(std::uint64_t maximum, std::span<const std::uint16_t> samples, std::span<std::uint64_t> words) {
+void set_dark_greys(std::uint64_t maximum, std::span<const std::uint16_t> samples, std::span<std::uint64_t> words,
+                    const Execution& execution) {
   for (std::size_t w = 0; w < words.size(); ++w) {
+    execution.poll(w);
     const auto part = samples.subspan(w * 64, std::min<std::size_t>(64, samples.size() - w * 64));
     std::uint64_t word = 0;
     for (std::size_t i = 0; i < part.size(); ++i) word |= std::uint64_t{is_dark(part[i], maximum)} << i;
@@ -311,20 +317,23 @@ void set_dark_greys(std::uint64_t maximum, std::span<const std::uint16_t> sample
 }
 
 /// Sets the bits of dark pixels.
-void set_dark(const ImageHeader& header, const PixelRun& run, Bitmap& dark) {
+void set_dark(const ImageHeader& header, const PixelRun& run, Bitmap& dark, const Execution& execution) {
   const std::uint32_t y = header.height - 1 - run.y;
-  if (header.channels == 1 && run.step_x == 1) return set_dark_greys(header.maximum, run.samples, dark.row(y));
+  if (header.channels == 1 && run.step_x == 1)
+    return set_dark_greys(header.maximum, run.samples, dark.row(y), execution);
   std::uint32_t x = run.first_x;
   for (const std::uint16_t* pixel = run.samples.data(); pixel != run.samples.data() + run.samples.size();
        pixel += header.channels, x += run.step_x) {
+    execution.poll(static_cast<std::size_t>(pixel - run.samples.data()));
     if (is_dark(header, pixel)) dark.set(x, y);
   }
 }
 
 /// The middle of the only free cell of a row.
-std::optional<Vec2> opening(const OccupancyMap& map, std::uint32_t y) {
+std::optional<Vec2> opening(const OccupancyMap& map, std::uint32_t y, const Execution& execution) {
   std::optional<Vec2> found;
   for (std::uint32_t x = 0; x < map.width(); ++x) {
+    execution.poll(x);
     if (map.blocked.test(x, y)) continue;
     if (found) return std::nullopt;
     found = cell_centre(map, {x, y});
@@ -342,11 +351,11 @@ OccupancyMap read_maze_image(const InputFile& file, const Execution& execution) 
     header = read;
     map.blocked = cell_bitmap(header.width, header.height, execution);
   };
-  read_image(file, {begin, [&](const PixelRun& run) { set_dark(header, run, map.blocked); }}, execution);
+  read_image(file, {begin, [&](const PixelRun& run) { set_dark(header, run, map.blocked, execution); }}, execution);
   map.occupied = map.blocked.count();
   map.free = map.blocked.size() - map.occupied;
-  map.start = opening(map, map.height() - 1);
-  if (map.height() > 1) map.goal = opening(map, 0);
+  map.start = opening(map, map.height() - 1, execution);
+  if (map.height() > 1) map.goal = opening(map, 0, execution);
   return map;
 }
 

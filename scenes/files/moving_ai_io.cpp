@@ -204,9 +204,11 @@ OccupancyMap read_moving_ai_map(const InputFile& file, const Execution& executio
 void write_moving_ai_map(const OccupancyMap& map, const std::string& path, const Execution& execution) {
   OutputFile file(path, execution);
   file.write(fmt::format("type octile\nheight {}\nwidth {}\nmap\n", map.height(), map.width()));
+  execution.reserve(map.width());
   std::string line(map.width() + std::size_t{1}, '\n');
   for (std::uint32_t y = map.height(); y-- > 0;) {
     for (std::uint32_t x = 0; x < map.width(); ++x) {
+      execution.poll(x);
       line[x] = map.water.holds(x, y) ? 'W' : map.blocked.test(x, y) ? '@' : '.';
     }
     file.write(line);

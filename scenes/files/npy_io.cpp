@@ -171,10 +171,10 @@ template <class Wall, class In>
 std::optional<WallSet> copied(const InputFile& file, const NpyWalls& array, const Execution& execution,
                               std::size_t& bad) {
   const auto number = [](double x) { return std::abs(x) < smallest_coordinate ? 0.0 : x; };
-  if (execution.progress != nullptr) execution.progress->begin("read", array.walls);
+  if (Progress* told = execution.progress) told->set_total(told->done() + array.walls);  // beside what did not fit
   execution.reserve(array.walls * sizeof(Wall));
   RawVector<Wall> walls(array.walls);
-  bad = first_in_chunks(array.walls, npy_grain, execution, [&](Range r) {
+  bad = first_in_chunks(array.walls, npy_grain, execution.quiet(), [&](Range r) {
     std::size_t i = r.first;
     for (; i < r.last; ++i) {
       const WallOf<In> w = row_of<In>(file, array, i);
@@ -182,6 +182,7 @@ std::optional<WallSet> copied(const InputFile& file, const NpyWalls& array, cons
       walls[i] = Wall::of(number(w.x1), number(w.y1), number(w.x2), number(w.y2));
     }
     file.forget(array.data + r.first * sizeof(WallOf<In>), array.data + r.last * sizeof(WallOf<In>));
+    if (i == r.last) execution.advance(r.size());
     return i;
   });
   if (bad < array.walls) return std::nullopt;
@@ -192,6 +193,7 @@ std::optional<WallSet> copied(const InputFile& file, const NpyWalls& array, cons
 template <class In>
 WallSet walls_of(const InputFile& file, const NpyWalls& array, const Execution& execution) {
   std::size_t bad = 0;
+  if (execution.progress != nullptr) execution.progress->begin("read", array.walls);
   if (auto walls = copied<PackedWall, In>(file, array, execution, bad)) return std::move(*walls);
   if (auto walls = copied<FloatWall, In>(file, array, execution, bad)) return std::move(*walls);
   if (auto walls = copied<WallOf<In>, In>(file, array, execution, bad)) return std::move(*walls);

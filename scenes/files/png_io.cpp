@@ -209,6 +209,7 @@ void write_png(const PngRows& rows, const Execution& execution, const std::funct
 
 void write_map_png(const OccupancyMap& map, const std::string& path, const Execution& execution) {
   OutputFile file(path, execution);
+  execution.reserve(map.width() / 8);
   std::vector<std::uint8_t> bytes((map.width() + 7) / 8);
   const auto row = [&](std::size_t from_top) {
     const auto y = static_cast<std::uint32_t>(map.height() - 1 - from_top);

@@ -121,7 +121,8 @@ void confine(Scene& scene, const ScenePolygon& ring, const Execution& execution)
   std::size_t first = 0;
   while (!side_of(box, corners[first])) ++first;
   for (std::size_t from = first, to = first; from < first + n; from = to) {
-    while (!side_of(box, corners[++to % n])) continue;
+    execution.poll(from);
+    while (!side_of(box, corners[++to % n])) execution.poll(to);
     const Vec2 a = corners[from % n];
     const Vec2 b = corners[to % n];
     ScenePolygon rest{{a}, ring.line};
@@ -139,11 +140,13 @@ void confine(Scene& scene, const ScenePolygon& ring, const Execution& execution)
   scene.walls = walls.take();
 }
 
-/// Calls f with each ring that a corner lies in; false: the corner is on the outline of one.
+/// Calls f with each ring that a corner lies in; false: the corner is on the outline of one. Throws Stopped.
 template <class F>
-bool for_each_around(const PolygonIndex& rings, std::size_t ring, Vec2 corner, const F& f) {
+bool for_each_around(const PolygonIndex& rings, std::size_t ring, Vec2 corner, const Execution& execution, const F& f) {
   bool on_outline = false;
+  std::size_t looked = 0;
   rings.for_each_polygon_near({corner, corner}, [&](std::uint32_t other) {
+    execution.poll(looked++);
     const PolygonSide side = other == ring ? PolygonSide::outside : rings.side_of(other, corner);
     if (side == PolygonSide::inside) f(other);
     on_outline = on_outline || side == PolygonSide::on_outline;
@@ -153,11 +156,11 @@ bool for_each_around(const PolygonIndex& rings, std::size_t ring, Vec2 corner, c
 }
 
 /// In how many rings does a corner lie that is on no other ring's outline? All corners of a ring must agree.
-std::size_t depth_of(const PolygonIndex& rings, std::size_t ring, const Scene& scene) {
+std::size_t depth_of(const PolygonIndex& rings, std::size_t ring, const Scene& scene, const Execution& execution) {
   std::optional<std::size_t> depth;
   for (const Vec2 p : rings.polygons()[ring]) {
     std::size_t around = 0;
-    if (!for_each_around(rings, ring, p, [&](std::uint32_t) { ++around; })) continue;
+    if (!for_each_around(rings, ring, p, execution, [&](std::uint32_t) { ++around; })) continue;
     if (depth && *depth != around) throw InputError(place_of_polygon(scene, ring), "this ring crosses another one");
     depth = around;
   }
@@ -165,11 +168,12 @@ std::size_t depth_of(const PolygonIndex& rings, std::size_t ring, const Scene& s
 }
 
 /// The ring that a ring lies in, one less deep.
-std::size_t parent_of(const PolygonIndex& rings, std::size_t ring, std::span<const std::size_t> depth) {
+std::size_t parent_of(const PolygonIndex& rings, std::size_t ring, std::span<const std::size_t> depth,
+                      const Execution& execution) {
   std::size_t parent = ring;
   for (const Vec2 p : rings.polygons()[ring]) {
     const auto take = [&](std::uint32_t other) { parent = depth[other] + 1 == depth[ring] ? other : parent; };
-    if (for_each_around(rings, ring, p, take)) break;
+    if (for_each_around(rings, ring, p, execution, take)) break;
   }
   return parent;
 }
@@ -180,6 +184,7 @@ void confine_to(Scene& scene, std::span<const ScenePolygon> outermost, const Exe
   Box box;
   std::vector<std::vector<Vec2>> holes;
   for (const ScenePolygon& ring : outermost) {
+    execution.reserve(ring.corners.size() * sizeof(Vec2));
     for (const Vec2 p : ring.corners) box.include(p);
     push_asked(holes, ring.corners, execution);
   }
@@ -193,20 +198,20 @@ void sort_by_depth(Scene& scene, const Execution& execution) {
   const PolygonIndex index(plane_obstacles(scene, execution).polygons, execution);
   std::vector<std::size_t> depth;
   for (std::size_t i = 0; i < scene.polygons.size(); ++i) {
-    if (i % 256 == 0) execution.check();
-    push_asked(depth, depth_of(index, i, scene), execution);
+    push_asked(depth, depth_of(index, i, scene, execution), execution);
   }
+  execution.reserve(depth.size() * sizeof(std::vector<std::vector<Vec2>>));
   std::vector<std::vector<std::vector<Vec2>>> holes(depth.size());  // of what is blocked in each ring
   for (std::size_t i = 0; i < depth.size(); ++i) {
     if (i % 256 == 0) execution.check();
     if (depth[i] % 2 == 0 && depth[i] > 0)
-      push_asked(holes[parent_of(index, i, depth)], scene.polygons[i].corners, execution);
+      push_asked(holes[parent_of(index, i, depth, execution)], std::move(scene.polygons[i].corners), execution);
   }
-  const Rings rings = std::exchange(scene.polygons, {});
+  Rings rings = std::exchange(scene.polygons, {});
   Rings outermost;
   for (std::size_t i = 0; i < rings.size(); ++i) {
-    if (depth[i] == 0) push_asked(outermost, rings[i], execution);
-    if (depth[i] % 2 == 1) add_without_holes(scene, rings[i].line, rings[i].corners, holes[i], execution);
+    if (depth[i] == 0) push_asked(outermost, std::move(rings[i]), execution);
+    if (depth[i] % 2 == 1) add_without_holes(scene, rings[i].line, std::move(rings[i].corners), holes[i], execution);
   }
   confine_to(scene, outermost, execution);
 }

@@ -143,11 +143,12 @@ class PixelValues {
 
   /// take(x, y, value, is it what map_saver writes of the unknown?) for each pixel of the run, y from the bottom.
   template <class Take>
-  void row(const PixelRun& run, const Take& take) const {
+  void row(const PixelRun& run, const Execution& execution, const Take& take) const {
     const std::uint32_t y = header_.height - 1 - run.y;
     std::uint32_t x = run.first_x;
     for (const std::uint16_t* pixel = run.samples.data(); pixel != run.samples.data() + run.samples.size();
          pixel += header_.channels, x += run.step_x) {
+      execution.poll(static_cast<std::size_t>(pixel - run.samples.data()));
       take(x, y, value_at(pixel), is_saved_unknown(pixel));
     }
   }
@@ -195,7 +196,7 @@ void read_values(const InputFile& yaml, MapServerRules rules, Cells& to, const B
                          values.begin(header);
                          begin(header);
                        },
-                       [&](const PixelRun& run) { values.row(run, take); }};
+                       [&](const PixelRun& run) { values.row(run, execution, take); }};
   to.image = path_beside(yaml.name(), description.image);
   std::optional<InputFile> image;
   try {

@@ -290,7 +290,7 @@ class SceneReader {
     if (given.size() == wanted || any_heading || place_of_tool) return;
     Place{file_.name(), line}.fail(
         fmt::format("`{}` must be {} numbers for the robot of line {}", item, wanted, first_line("robot")),
-        fmt::format("{} numbers", given.size()));
+        scene_text::numbers_text(given.size()));
   }
   /// Without a robot's line the question names an arm, or says what is wrong.
   void check_arm_lines() const {

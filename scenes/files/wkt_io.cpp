@@ -15,6 +15,7 @@
 #include "parallel/asked_memory.hpp"
 #include "scenes/files/plane_formats_io.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
+#include "scenes/text/human_units.hpp"
 #include "scenes/text/output_file_io.hpp"
 #include "scenes/text/scene_text.hpp"
 
@@ -220,7 +221,7 @@ class WktReader {
       const bool closed = ring.corners.front() == ring.corners.back();
       if (ring.corners.size() < 4 || !closed) {
         place(ring.line).fail("a ring needs four positions or more, the last one equal to the first",
-                              closed ? fmt::format("{} positions", ring.corners.size()) : "an open ring");
+                              closed ? counted(ring.corners.size(), "position", "positions") : "an open ring");
       }
       ring.corners.pop_back();
       if (outline.corners.empty()) {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/base/items_by_key.hpp"
 #include "core/plane/geometry.hpp"
 #include "parallel/asked_memory.hpp"
 #include "parallel/chunks.hpp"
@@ -213,8 +214,10 @@ class RingSweep {
 /// no two such joins cross.
 class HoleCutter {
  public:
-  /// The outer ring first. Refers to them.
-  explicit HoleCutter(const PolygonSet& rings)
+  static constexpr std::size_t bytes_a_corner = 192;  // with the rings, a sweep over them and what they are cut into
+
+  /// The outer ring first. Refers to them. Throws Stopped.
+  HoleCutter(const PolygonSet& rings, const Execution& execution)
       : corners_(rings.corners),
         rings_(corners_, rings.first),
         posts_(rings_.size()),
@@ -222,6 +225,7 @@ class HoleCutter {
         one_of_(rings_.size()) {
     for (std::uint32_t i = 0; i < rings_.size(); ++i) add_line(i, rings_.next(i));
     for (std::size_t r = 1; r < rings.size(); ++r) {
+      execution.check();
       std::uint32_t low = rings.first[r];
       std::uint32_t high = low;
       for (std::uint32_t i = rings_.next(low); i != rings.first[r]; i = rings_.next(i)) {
@@ -248,7 +252,9 @@ class HoleCutter {
     for (auto touch = touches_.rbegin(); touch != touches_.rend(); ++touch) {
       if (rings_.ahead(touch->first)) split(touch->first, touch->second);
     }
+    execution.check();
     for (Line& line : lines_) line = {one_of_[line.from], one_of_[line.to]};
+    execution.check();
     for (const auto& [from, to] : cuts_) {
       add_line(from, to);
       add_line(to, from);
@@ -256,10 +262,16 @@ class HoleCutter {
     return true;
   }
 
-  /// The outlines left of all lines; none where these do not close.
-  std::vector<std::vector<Vec2>> pieces() {
-    std::vector<std::vector<std::uint32_t>> leaving(corners_.size());
-    for (std::uint32_t i = 0; i < lines_.size(); ++i) leaving[lines_[i].from].push_back(i);
+  /// The outlines left of all lines; none where these do not close. Throws Stopped.
+  std::vector<std::vector<Vec2>> pieces(const Execution& execution) {
+    std::size_t steps = 0;
+    const auto each_line = [&](const auto& visit) {
+      for (std::uint32_t i = 0; i < lines_.size(); ++i) {
+        execution.poll(i);
+        visit(lines_[i].from, i);
+      }
+    };
+    const ItemsByKey leaving = items_by_key(corners_.size(), each_line, [&] { execution.check(); });
     std::vector<char> used(lines_.size(), 0);
     std::vector<std::vector<Vec2>> result;
     for (std::uint32_t first = 0; first < lines_.size(); ++first) {
@@ -267,10 +279,11 @@ class HoleCutter {
       std::vector<Vec2>& outline = result.emplace_back();
       std::uint32_t line = first;
       do {
+        execution.poll(++steps);
         if (used[line] != 0) return {};
         used[line] = 1;
         outline.push_back(corners_[lines_[line].from]);
-        line = next_line(line, leaving[lines_[line].to]);
+        line = next_line(line, leaving.of(lines_[line].to));
       } while (line != first);
       if (anticlockwise(outline) != outline) return {};
     }
@@ -322,7 +335,7 @@ class HoleCutter {
   void add_line(std::uint32_t from, std::uint32_t to) { lines_.push_back({from, to}); }
 
   /// Of the lines that leave the end of `arriving`, the first one clockwise of the way back.
-  std::uint32_t next_line(std::uint32_t arriving, const std::vector<std::uint32_t>& leaving) const {
+  std::uint32_t next_line(std::uint32_t arriving, std::span<const std::uint32_t> leaving) const {
     const Vec2 at = corners_[lines_[arriving].to];
     const Vec2 back = corners_[lines_[arriving].from];
     std::uint32_t best = leaving.front();
@@ -357,14 +370,17 @@ class HoleCutter {
 std::vector<Segment> shared_sides(std::span<const std::vector<Vec2>> pieces, const Execution& execution) {
   std::vector<Segment> sides;
   for (const std::vector<Vec2>& piece : pieces) {
-    for_each_side(piece, [&](Vec2 a, Vec2 b) { sides.push_back(is_before(a, b) ? Segment{a, b} : Segment{b, a}); });
+    for_each_side(piece, [&](Vec2 a, Vec2 b) {
+      push_asked(sides, is_before(a, b) ? Segment{a, b} : Segment{b, a}, execution);
+    });
   }
   polled_sort(sides.begin(), sides.end(), execution, [](const Segment& s, const Segment& t) {
     return s.a == t.a ? is_before(s.b, t.b) : is_before(s.a, t.a);
   });
   std::vector<Segment> shared;
   for (std::size_t i = 1; i < sides.size(); ++i) {
-    if (sides[i] == sides[i - 1]) shared.push_back(sides[i]);
+    execution.poll(i);
+    if (sides[i] == sides[i - 1]) push_asked(shared, sides[i], execution);
   }
   return shared;
 }
@@ -409,6 +425,10 @@ void check_corners(const Scene& scene, std::size_t corners) {
 /// The checked outlines of some polygons.
 PolygonSet checked_outlines(const Scene& scene, Range range, const Execution& execution) {
   PolygonSet set;
+  std::size_t corners = 0;
+  for (std::size_t i = range.first; i < range.last; ++i) corners += scene.polygons[i].corners.size();
+  execution.reserve(corners * sizeof(Vec2));
+  set.corners.reserve(corners);
   for (std::size_t i = range.first; i < range.last; ++i) {
     append_distinct(set.corners, scene.polygons[i].corners);
     check_corners(scene, set.corners.size());
@@ -424,8 +444,12 @@ PolygonSet checked_outlines(const Scene& scene, Range range, const Execution& ex
 
 std::vector<std::vector<Vec2>> without_holes(const std::vector<Vec2>& outer, std::span<const std::vector<Vec2>> holes,
                                              const Execution& execution) {
+  std::size_t corners = outer.size();
+  for (const std::vector<Vec2>& hole : holes) corners += hole.size();
+  execution.reserve(corners * HoleCutter::bytes_a_corner);
   std::vector<std::vector<Vec2>> rings{anticlockwise(outer)};
   for (const std::vector<Vec2>& hole : holes) {
+    execution.poll(rings.size());
     std::vector<Vec2> ring = anticlockwise(hole);
     std::reverse(ring.begin(), ring.end());
     if (ring.size() < 3 || anticlockwise(ring) == ring) return {};  // what has no area can't be turned
@@ -436,9 +460,9 @@ std::vector<std::vector<Vec2>> without_holes(const std::vector<Vec2>& outer, std
     if (ring.size() < 3 || self_contact(ring, execution)) return {ring};
     checked.add(ring);
   }
-  HoleCutter cutter(checked);
+  HoleCutter cutter(checked, execution);
   if (!cutter.tie_holes(execution)) return {};
-  return cutter.pieces();
+  return cutter.pieces(execution);
 }
 
 void add_without_holes(Scene& scene, std::size_t line, std::vector<Vec2> outer,
@@ -451,8 +475,8 @@ void add_without_holes(Scene& scene, std::size_t line, std::vector<Vec2> outer,
                      "points at most");
   }
   const std::vector<Segment> seams = shared_sides(pieces, execution);
-  scene.seams.insert(scene.seams.end(), seams.begin(), seams.end());
-  for (std::vector<Vec2>& piece : pieces) scene.polygons.push_back({std::move(piece), line});
+  for (const Segment& seam : seams) push_asked(scene.seams, seam, execution);
+  for (std::vector<Vec2>& piece : pieces) push_asked(scene.polygons, {std::move(piece), line}, execution);
 }
 
 bool stands_on_seam(const Scene& scene, Vec2 p) {
@@ -462,6 +486,8 @@ bool stands_on_seam(const Scene& scene, Vec2 p) {
 
 std::optional<SideContact> self_contact(std::span<const Vec2> corners, const Execution& execution) {
   constexpr std::size_t few = 24;
+  constexpr std::size_t bytes_a_corner = 64;  // with its side on the line; of large ones alone it is asked
+  if (corners.size() > 100 * few) execution.reserve(corners.size() * bytes_a_corner);
   const std::uint32_t one_ring[] = {0, static_cast<std::uint32_t>(corners.size())};
   const RingSides outline(corners, one_ring);
   if (outline.size() <= few) {
@@ -473,6 +499,7 @@ std::optional<SideContact> self_contact(std::span<const Vec2> corners, const Exe
     return std::nullopt;
   }
   for (std::size_t i = 0; i < outline.size(); ++i) {
+    execution.poll(i + 1);
     if (outline.fold(i)) return SideContact{outline.previous(i), i};
   }
   return RingSweep(outline, execution, false).run([](auto, auto, auto) {});
@@ -513,11 +540,15 @@ PlaneObstacles plane_obstacles(const Scene& scene, const Execution& execution) {
   execution.reserve(corners * sizeof(Vec2) + scene.walls.size() * sizeof(Segment));
   obstacles.polygons.corners.reserve(corners);
   for (const PolygonSet& part : parts) {
+    execution.check();
     for (std::size_t i = 0; i < part.size(); ++i) obstacles.polygons.add(part[i]);
   }
   obstacles.walls.reserve(scene.walls.size());
   scene.walls.visit([&](auto walls) {
-    for (const auto& wall : walls) obstacles.walls.push_back(wall.segment());
+    for (const auto& wall : walls) {
+      execution.poll(obstacles.walls.size());
+      obstacles.walls.push_back(wall.segment());
+    }
   });
   obstacles.bounds = scene.bounds;
   return obstacles;

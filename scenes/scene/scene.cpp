@@ -277,7 +277,9 @@ Box box_of_walls(const WallSet& set, const Execution& execution) {
 
 Box obstacle_box(const Scene& scene, const Execution& execution) {
   Box box = box_of_walls(scene.walls, execution);
+  std::size_t polygons = 0;
   for (const ScenePolygon& polygon : scene.polygons) {
+    execution.poll(polygons++);
     for (const Vec2 corner : polygon.corners) box.include(corner);
   }
   if (scene.map) box.include(world_box(*scene.map));

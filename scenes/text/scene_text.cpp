@@ -11,6 +11,7 @@
 #include "core/base/types.hpp"
 #include "parallel/asked_memory.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
+#include "scenes/text/human_units.hpp"
 
 namespace warren::scene_text {
 
@@ -173,7 +174,7 @@ class RobotReader : LineReader {
       push_asked(points, {x, fields_.number()}, execution_);
       execution_.poll(points.size());
     }
-    if (points.size() < 3) refuse_usage(fmt::format("{} corners", points.size()));
+    if (points.size() < 3) refuse_usage(counted(points.size(), "corner", "corners"));
     return points;
   }
   /// Those of a car, puma560 or arm in any order, each once.

@@ -488,6 +488,7 @@ RoadmapArrays arrays_of(const LatticePassages& passages, const Execution& execut
   RawVector<EdgeEnd> offsets;
   offsets.reserve(cells + 1);
   RawVector<VertexId> targets;
+  targets.reserve(cells * most_ends);  // growing would move gigabytes at once
   for (std::uint64_t i = 0; i < cells; ++i) {
     execution.poll(i);
     offsets.push_back(static_cast<EdgeEnd>(targets.size()));

@@ -70,7 +70,7 @@ void make(std::optional<Known>& known, const SolveRequest& request, [[maybe_unus
     // What solving checks before it plans, so that what can't be asked is not built.
     if constexpr (std::is_same_v<Known, AxisRoadmap>) {
       voronoi_problem(request.scene, request.question);
-      check_axis_box(request.scene);
+      check_axis_box(request.scene, execution);
     } else {
       touching_problem(request);
     }

@@ -39,8 +39,8 @@ void stay(Answer& answer, const WallProblem& problem);
 
 /// How cells are passed.
 CellOptions cell_options(const SolveOptions& options, const SearchChoice& search);
-/// The doors, which are the borders between cells; floors and ceilings are obstacles anyway.
-NamedLines doors_of(const CellDecomposition& cells);
+/// The doors, which are the borders between cells; floors and ceilings are obstacles anyway. Throws Stopped.
+NamedLines doors_of(const CellDecomposition& cells, const Execution& execution);
 
 /// Runs `plan`, and says it with the file's lines where obstacles clash
 /// (planners/vertical_cells/cell_decomposition.hpp).
@@ -50,8 +50,8 @@ void without_clashes(const SolveRequest& request, const std::function<void()>& p
 /// verification.
 WallProblem voronoi_problem(const Scene& scene, const Question& question);
 double axis_clearance(const WallProblem& problem);
-/// A box without area has no middle: throws InputError with the file's name.
-void check_axis_box(const Scene& scene);
+/// A box without area has no middle: throws InputError with the file's name. Throws Stopped.
+void check_axis_box(const Scene& scene, const Execution& execution);
 
 /// The planner voronoi on a map.
 Answer solve_on_skeleton(const SolveRequest& request);

@@ -315,7 +315,7 @@ class SampledSolve {
   /// The counts are those of all goals that were tried.
   void plan_roadmaps() {
     const std::vector<State> in_order = body_.best_first(*world_, goals_);
-    std::vector<State> goals = detail::free_states(*world_, std::span<const State>(in_order));
+    std::vector<State> goals = detail::free_states(*world_, std::span<const State>(in_order), own_);
     if (goals.empty()) goals.push_back(in_order.front());
     const bool lazy = request_.planner == PlannerKind::lazy_prm;
     Counters before;
@@ -412,7 +412,7 @@ class SampledSolve {
   }
   /// None where start or all of them are blocked, which the answer says.
   std::vector<State> free_goals() {
-    std::vector<State> goals = detail::free_states(*world_, std::span<const State>(goals_));
+    std::vector<State> goals = detail::free_states(*world_, std::span<const State>(goals_), own_);
     auto query = world_->make_query();
     const bool is_free = world_->is_free(body_.start(), query);
     if (is_free && !goals.empty()) return goals;

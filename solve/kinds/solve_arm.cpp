@@ -125,7 +125,8 @@ class Arm : public UsualBody<ArmProblem> {
     const ConvexBody tip({SolidKind::sphere, Eigen::Isometry3d(Eigen::Translation3d(problem_.goal_place())),
                           Vec3(problem_.robot.radius, 0.0, 0.0)});
     const MovingFrame still;
-    return std::ranges::any_of(solids_of(scene_, {}), [&](const Solid& solid) {
+    return std::ranges::any_of(solids_of(scene_, execution_), [&](const Solid& solid) {
+      execution_.check();
       return keep_apart(tip, still, ConvexBody(solid), still, 0.0, problem_.clearance) != Apart::proved;
     });
   }

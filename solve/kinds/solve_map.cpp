@@ -250,13 +250,14 @@ class CellSolve {
   void choose_method() {
     const StageTimer timer(request_.execution, "search", answer_.seconds.search);
     const bool asked = request_.options.search || grid_.diagonal == Diagonal::none;
-    if (!asked && !has_diagonal_steps(blocked())) grid_.method = GridMethod::bfs;  // mazes: as short, and faster
+    if (!asked && !has_diagonal_steps(blocked(), request_.execution))
+      grid_.method = GridMethod::bfs;  // mazes: as short, and faster
     answer_.search = name_of(grid_.method);
   }
 
   void search(const std::vector<Cell>& starts, const std::vector<Cell>& goals) {
     const StageTimer timer(request_.execution, "search", answer_.seconds.search);
-    GridSearch cells(blocked());
+    GridSearch cells(blocked(), request_.execution);
     for (const Cell start : starts) {
       for (const Cell goal : goals) {
         const GridPath path = cells.find(start, goal, grid_, request_.execution);

@@ -16,6 +16,7 @@
 #include "core/base/error.hpp"
 #include "core/search/graph.hpp"
 #include "core/search/search.hpp"
+#include "parallel/asked_memory.hpp"
 #include "planners/axis/medial_axis_planner.hpp"
 #include "planners/graph/assemble_graph.hpp"
 #include "planners/graph/roadmap_search.hpp"
@@ -45,6 +46,13 @@ bool stand_on_seams(const SolveRequest& request, const WallProblem& problem, Ans
 PlaneObstacles indexed_obstacles(const SolveRequest& request, Answer& answer) {
   const StageTimer timer(request.execution, "index", answer.seconds.index, request.scene.polygons.size());
   return plane_obstacles(request.scene, request.execution);
+}
+
+/// Room for so many lines of two corners.
+void reserve_lines(PolygonSet& lines, std::size_t count, const Execution& execution) {
+  execution.reserve(count * (2 * sizeof(Vec2) + sizeof(std::uint32_t)));
+  lines.corners.reserve(2 * count);
+  lines.first.reserve(count + 1);
 }
 
 constexpr std::size_t most_corners_at_once = 20'000;
@@ -99,7 +107,7 @@ std::vector<WrongEdge> wrong_edges(const PolygonIndex& polygons, const std::vect
   for (const Edge& edge : edges) {
     execution.check();
     const double depth = depth_inside(polygons, {points[edge.from], points[edge.to]}, places);
-    if (!(depth <= rounding)) wrong.push_back({edge.from, edge.to, depth});
+    if (!(depth <= rounding)) push_asked(wrong, {edge.from, edge.to, depth}, execution);
   }
   return wrong;
 }
@@ -110,10 +118,16 @@ std::vector<WrongEdge> wrong_edges(const PolygonIndex& polygons, const std::vect
 void solve_on_sampled_edges(const SolveRequest& request, const WallProblem& problem, const VisibilityOptions& how,
                             double& proof_s, Answer& answer) {
   const Execution& execution = request.execution;
+  std::size_t corners = 2;
+  for (const ScenePolygon& polygon : request.scene.polygons) corners += polygon.corners.size();
+  execution.reserve(2 * corners * sizeof(Vec2));
   PolygonSet as_in_file;  // edges are told by the numbers of their corners there
+  as_in_file.corners.reserve(corners);
   for (const ScenePolygon& polygon : request.scene.polygons) as_in_file.add(polygon.corners);
   const PolygonIndex polygons(std::move(as_in_file), execution);
-  std::vector<Vec2> points = polygons.polygons().corners;
+  std::vector<Vec2> points;
+  points.reserve(corners);
+  points = polygons.polygons().corners;
   points.push_back(problem.start);
   points.push_back(problem.goal);
   std::vector<Edge> edges;
@@ -133,7 +147,11 @@ void solve_on_sampled_edges(const SolveRequest& request, const WallProblem& prob
   answer.figures.push_back({"proof_s", proof_s});
   const auto keep = [&](const char* name, const auto& some) {
     NamedLines& kept = request.keep->lines.emplace_back(NamedLines{name, {}});
-    for (const auto& edge : some) kept.lines.add(std::array{points[edge.from], points[edge.to]});
+    reserve_lines(kept.lines, some.size(), execution);
+    for (const auto& edge : some) {
+      execution.poll(kept.lines.size());
+      kept.lines.add(std::array{points[edge.from], points[edge.to]});
+    }
   };
   if (request.keep != nullptr) {
     keep("visibility", edges);
@@ -250,7 +268,7 @@ Answer solve_by_cells(const SolveRequest& request) {
     const CellDecomposition& cells = known != nullptr ? known->cells : plan.cells;
     answer.cells = CellCount{cells.cells.size(), cells.doors.size()};
     if (answer.outcome == Outcome::not_connected) answer.outcome = Outcome::infeasible;  // cells miss no way
-    if (request.keep != nullptr) request.keep->lines.push_back(doors_of(cells));
+    if (request.keep != nullptr) request.keep->lines.push_back(doors_of(cells, request.execution));
     judge_of(request, problem).verify_solved(answer);
   });
   return answer;
@@ -337,9 +355,11 @@ CellOptions cell_options(const SolveOptions& asked, const SearchChoice& search) 
   return options;
 }
 
-NamedLines doors_of(const CellDecomposition& cells) {
+NamedLines doors_of(const CellDecomposition& cells, const Execution& execution) {
   NamedLines doors{"cells", {}};
+  reserve_lines(doors.lines, cells.doors.size(), execution);
   for (std::uint32_t door = 0; door < cells.doors.size(); ++door) {
+    execution.poll(door);
     const Segment line = cells.door_line(door);
     doors.lines.add(std::array{line.a, line.b});
   }
@@ -355,8 +375,8 @@ double axis_clearance(const WallProblem& problem) {
   return problem.reach() * planning_room;
 }
 
-void check_axis_box(const Scene& scene) {
-  const Box box = scene.bounds ? *scene.bounds : obstacle_box(scene);
+void check_axis_box(const Scene& scene, const Execution& execution) {
+  const Box box = scene.bounds ? *scene.bounds : obstacle_box(scene, execution);
   if (box.empty() || (box.width() > 0.0 && box.height() > 0.0)) return;
   throw InputError(scene.source, "voronoi needs bounds, or obstacles, that span an area",
                    fmt::format("{} x {}", box.width(), box.height()));
@@ -379,7 +399,7 @@ Answer solve_on_medial_axis(const SolveRequest& request) {
     if (known != nullptr) {
       solution = plan_on_medial_axis(*known, problem.start, problem.goal, options, request.execution, &plan);
     } else {
-      check_axis_box(request.scene);
+      check_axis_box(request.scene, request.execution);
       const PlaneObstacles obstacles = indexed_obstacles(request, answer);
       without_clashes(request, [&] {
         solution = plan_on_medial_axis(obstacles, problem.start, problem.goal, options, request.execution, &plan);
@@ -399,6 +419,8 @@ Answer solve_on_medial_axis(const SolveRequest& request) {
       NamedLines& lines = request.keep->lines.emplace_back(NamedLines{"medial_axis", {}});
       std::vector<Vec2> points;
       for (const AxisEdge& edge : axis->edges) {
+        const std::size_t held = lines.lines.corners.size() * sizeof(Vec2);
+        if (lines.lines.size() % 4096 == 0) request.execution.reserve(2 * held);
         points.assign(1, axis->vertices[edge.from]);
         axis->curve(edge).append_polyline(points);
         lines.lines.add(points);

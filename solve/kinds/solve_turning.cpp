@@ -180,8 +180,8 @@ Answer solve_along_axis(const SolveRequest& request) {
 // the body keeps off the obstacles (docs/algorithms.md), times the corners that it passes, the path may be longer than
 // the shortest.
 
-double world_size(const Scene& scene, const std::vector<Vec2>& outline) {
-  Box box = obstacle_box(scene);
+double world_size(const Scene& scene, const std::vector<Vec2>& outline, const Execution& execution) {
+  Box box = obstacle_box(scene, execution);
   if (scene.bounds) box.include(*scene.bounds);
   double largest = outline_reach(outline);
   if (box.empty()) return largest;
@@ -202,7 +202,7 @@ bool fits_in_bounds(const std::optional<Box>& bounds, const PoseProblem& problem
 Solution<Vec2> plan_at_fixed_angle(const SolveRequest& request, const PoseProblem& problem,
                                    const std::optional<CellOptions>& cells, Answer& answer) {
   const std::vector<Vec2>& outline = problem.robot.outline;
-  const double room = problem.clearance + 1e-10 * world_size(request.scene, outline);
+  const double room = problem.clearance + 1e-10 * world_size(request.scene, outline, request.execution);
   const std::size_t disc_corners = problem.clearance > 0.0 ? 32 : 4;  // of a polygon around the clearance's disc
   Solution<Vec2> solution;
   solution.outcome = Outcome::start_blocked;
@@ -219,8 +219,8 @@ Solution<Vec2> plan_at_fixed_angle(const SolveRequest& request, const PoseProble
   solution = cells ? plan_through_cells(obstacles, start, goal, *cells, request.execution, &plan)
                    : visibility_path(obstacles, start, goal, {}, request.execution);
   if (request.keep == nullptr) return solution;
-  if (cells) request.keep->lines.push_back(doors_of(plan.cells));
-  request.keep->lines.push_back({"blocked", obstacles.polygons, true});
+  if (cells) request.keep->lines.push_back(doors_of(plan.cells, request.execution));
+  request.keep->lines.push_back({"blocked", std::move(obstacles.polygons), true});
   return solution;
 }
 

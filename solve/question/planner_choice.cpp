@@ -84,11 +84,11 @@ SearchChoice search_choice(const SolveOptions& asked) {
 }
 
 void check_planner_options(const SolveOptions& asked) {
-  const RoadmapOptions options = roadmap_options(asked);
   const auto planner = asked.planner;
   if (planner && !is_roadmap_planner(*planner)) {
     throw UsageError(fmt::format("@planner: {} builds no roadmap of samples; prm and lazy-prm do", name_of(*planner)));
   }
+  const RoadmapOptions options = roadmap_options(asked);
   if (asked.heuristic && options.search != SearchKind::astar) {
     throw UsageError(fmt::format("@heuristic: {} estimates nothing; astar takes one", name_of(options.search)));
   }
@@ -126,8 +126,8 @@ PlannerOptions planner_options(const SolveOptions& asked, const Scene& scene, co
   return options;
 }
 
-void check_cell(double cell, const Scene& scene) {
-  const Box box = scene.bounds ? *scene.bounds : obstacle_box(scene);
+void check_cell(double cell, const Scene& scene, const Execution& execution) {
+  const Box box = scene.bounds ? *scene.bounds : obstacle_box(scene, execution);
   if (box.empty()) return;
   const double width = std::max(1.0, std::ceil(box.width() / cell));
   const double height = std::max(1.0, std::ceil(box.height() / cell));

@@ -3,6 +3,7 @@
 // the world.
 #pragma once
 
+#include "core/run/execution.hpp"
 #include "planners/graph/roadmap_options.hpp"
 #include "planners/grid/grid_search.hpp"
 #include "scenes/scene/scene.hpp"
@@ -45,8 +46,8 @@ PlannerOptions planner_options(const SolveOptions& options, const Scene& scene, 
 /// Throws UsageError for dfs; `usual` where nothing is said.
 GridMethod grid_method(const SolveOptions& options, GridMethod usual);
 
-/// Throws UsageError where the world has more cells of that size than any grid or map may have.
-void check_cell(double cell, const Scene& scene);
+/// Throws UsageError where the world has more cells of that size than any grid or map may have, and Stopped.
+void check_cell(double cell, const Scene& scene, const Execution& execution = {});
 
 /// The raster of a scene: cell and angles of the options, else the file's grid line, else a four-hundredth of the
 /// longer side of the bounds (or of the obstacles' box) and 72 headings. A map's cells are its own. Throws UsageError

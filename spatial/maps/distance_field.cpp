@@ -61,12 +61,14 @@ constexpr std::uint32_t farthest = 65'535;  // its square is the last that fits
 
 /// For columns first .. last - 1, first being a multiple of 64: cells between a cell and the nearest blocked one of its
 /// column.
-void column_pass(const Bitmap& blocked, bool outside_blocked, Range columns, std::uint32_t* distances) {
+void column_pass(const Bitmap& blocked, bool outside_blocked, Range columns, std::uint32_t* distances,
+                 const Execution& execution) {
   const std::uint32_t width = blocked.width();
   const std::uint32_t height = blocked.height();
   std::vector<std::uint32_t> above(columns.size(), outside_blocked ? 0 : nothing);
   const auto step = [](std::uint32_t d) { return d + (d == nothing ? 0 : 1); };
   for (std::uint32_t y = 0; y < height; ++y) {
+    execution.poll(y);
     std::uint32_t* row = distances + std::size_t{y} * width + columns.first;
     for (std::uint32_t& d : above) d = step(d);
     const auto words = blocked.row(y).subspan(columns.first / Bitmap::word_bits);
@@ -79,6 +81,7 @@ void column_pass(const Bitmap& blocked, bool outside_blocked, Range columns, std
   }
   std::fill(above.begin(), above.end(), outside_blocked ? 0 : nothing);
   for (std::uint32_t y = height; y-- > 0;) {
+    execution.poll(y);
     std::uint32_t* row = distances + std::size_t{y} * width + columns.first;
     for (std::size_t i = 0; i < columns.size(); ++i) {
       above[i] = std::min(row[i], step(above[i]));
@@ -89,7 +92,8 @@ void column_pass(const Bitmap& blocked, bool outside_blocked, Range columns, std
 
 /// Replaces the rows' column distances by squared distances: along the lower envelope of a row's curves.
 template <class Kind, class Int>
-void row_passes(Range rows, std::uint32_t columns, bool outside_blocked, std::uint32_t* distances) {
+void row_passes(Range rows, std::uint32_t columns, bool outside_blocked, std::uint32_t* distances,
+                const Execution& execution) {
   struct Piece {
     Int site;
     Int height;
@@ -107,6 +111,7 @@ void row_passes(Range rows, std::uint32_t columns, bool outside_blocked, std::ui
     return end;
   };
   for (std::size_t y = rows.first; y < rows.last; ++y) {
+    if (columns >= 1U << 14U) execution.check();  // else once a chunk is often enough
     std::uint32_t* const row = distances + y * columns;
     Piece* end = begin;
     if (outside_blocked) end = added(-1, 0, end);
@@ -148,14 +153,15 @@ DistanceField::DistanceField(const Bitmap& blocked, CellDistance kind, bool outs
                     std::size_t{thread_count(execution.threads)} * piece * width_);
   squared_.resize(blocked.size());
   constexpr std::size_t columns = 512;
-  for_chunks(width_, columns, execution, [&](Range r) { column_pass(blocked, outside_blocked, r, squared_.data()); });
+  for_chunks(width_, columns, execution,
+             [&](Range r) { column_pass(blocked, outside_blocked, r, squared_.data(), execution); });
   constexpr std::size_t rows = 32;
   constexpr std::uint32_t narrow = 1 << 14;  // the sum of two curves is below 2^31
   const bool is_narrow = std::max(width_, height_) < narrow;
   const auto pass = kind == CellDistance::centres
                         ? (is_narrow ? row_passes<Centres, std::int32_t> : row_passes<Centres, std::int64_t>)
                         : (is_narrow ? row_passes<Squares, std::int32_t> : row_passes<Squares, std::int64_t>);
-  for_chunks(height_, rows, execution, [&](Range r) { pass(r, width_, outside_blocked, squared_.data()); });
+  for_chunks(height_, rows, execution, [&](Range r) { pass(r, width_, outside_blocked, squared_.data(), execution); });
 }
 
 std::uint32_t DistanceField::cut_off_squared() const {
@@ -181,6 +187,7 @@ void DistanceField::renew(const Bitmap& blocked, Cell low, Cell high, const Exec
   const CellBox seen = grown(felt, around, all);
   const std::uint32_t width = seen.end.x - seen.begin.x;
   const std::uint32_t height = seen.end.y - seen.begin.y;
+  execution.reserve(Bitmap::bytes_for(width + 2, height + 2));
   Bitmap part(width + 2, height + 2);  // with a frame, of what lies outside of the map, too
   for (std::uint32_t y = 0; y < height + 2; ++y) {
     execution.check();
@@ -206,6 +213,7 @@ double DistanceField::distance(std::uint32_t x, std::uint32_t y) const {
 }
 
 Bitmap blocked_for_disc(const Bitmap& blocked, double radius, const Execution& execution) {
+  execution.reserve(blocked.bytes());
   if (!(radius > 0.0)) return blocked;
   return blocked_for_disc(blocked, DistanceField(blocked, CellDistance::squares, true, execution), radius, execution);
 }
@@ -229,7 +237,8 @@ void mark_for_disc(Bitmap& wide, const Bitmap& blocked, const DistanceField& fie
 }  // namespace
 
 Bitmap blocked_for_disc(const Bitmap& blocked, const DistanceField& field, double radius, const Execution& execution) {
-  Bitmap wide(blocked.width(), blocked.height());
+  execution.reserve(blocked.bytes());
+  Bitmap wide(blocked.width(), blocked.height(), false, [&] { execution.check(); });
   constexpr std::size_t rows = 64;
   for_chunks(blocked.height(), rows, execution, [&](Range r) {
     mark_for_disc(wide, blocked, field, radius,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "parallel/asked_memory.hpp"
 #include "parallel/chunks.hpp"
 
 namespace warren {
@@ -50,14 +51,16 @@ bool is_ridge(const DistanceField& field, double least, std::uint32_t x, std::ui
 }
 
 /// The ridge cells of a band of rows, tile by tile.
-std::vector<std::uint32_t> places_of(const DistanceField& field, double least, std::uint32_t first_row) {
+std::vector<std::uint32_t> places_of(const DistanceField& field, double least, std::uint32_t first_row,
+                                     const Execution& execution) {
   std::vector<std::uint32_t> places;
   const std::uint32_t last_row = std::min(first_row + tile, field.height());
   for (std::uint32_t first = 0; first < field.width(); first += tile) {
+    execution.check();
     const std::uint32_t last = std::min(first + tile, field.width());
     for (std::uint32_t y = first_row; y < last_row; ++y) {
       for (std::uint32_t x = first; x < last; ++x) {
-        if (is_ridge(field, least, x, y)) places.push_back(y * field.width() + x);
+        if (is_ridge(field, least, x, y)) push_asked(places, y * field.width() + x, execution);
       }
     }
   }
@@ -66,7 +69,7 @@ std::vector<std::uint32_t> places_of(const DistanceField& field, double least, s
 
 }  // namespace
 
-FreeCells::FreeCells(const Bitmap& blocked)
+FreeCells::FreeCells(const Bitmap& blocked, const Execution& execution)
     : width_(blocked.width()), height_(blocked.height()), stride_((blocked.width() / 64 + 1) * 64) {
   per_stride_ = 1.0 / stride_;
   const std::uint64_t end = (std::uint64_t{height_} + 2) * stride_ + std::uint64_t{2} * margin;
@@ -74,9 +77,11 @@ FreeCells::FreeCells(const Bitmap& blocked)
     throw InputError("map", "has too many cells for a grid search: 2^32 with the margin");
   }
   number_end_ = end;
-  words_.assign(end / 64 + 2, 0);
+  execution.reserve((end / 64 + 2) * sizeof(std::uint64_t));
+  assign_polled(words_, end / 64 + 2, std::uint64_t{0}, [&] { execution.check(); });
   const std::size_t row_words = stride_ / 64;
   for (std::uint32_t y = 0; y < height_; ++y) {
+    execution.poll(y);
     const auto from = blocked.row(y);
     std::uint64_t* to = words_.data() + (y + 1) * row_words + margin / 64;
     for (std::size_t w = 0; w < from.size(); ++w) to[w] = ~from[w];
@@ -85,7 +90,8 @@ FreeCells::FreeCells(const Bitmap& blocked)
 }
 
 Bitmap transposed(const Bitmap& bitmap, const Execution& execution) {
-  Bitmap result(bitmap.height(), bitmap.width());
+  execution.reserve(Bitmap::bytes_for(bitmap.height(), bitmap.width()));
+  Bitmap result(bitmap.height(), bitmap.width(), false, [&] { execution.check(); });
   for (std::uint32_t y = 0; y < bitmap.height(); ++y) {
     if (y % 16 == 0) execution.check();
     bitmap.for_each_in_row(y, [&](std::uint32_t x) { result.set(y, x); });
@@ -100,9 +106,11 @@ const std::array<std::uint8_t, 512>& allowed_steps(StepRule rule) {
 }
 
 CorridorCells::CorridorCells(const DistanceField& field, double least, const Execution& execution)
-    : width_(field.width()), ridge_(field.width(), field.height()) {
+    : width_(field.width()) {
+  execution.reserve(Bitmap::bytes_for(field.width(), field.height()));
+  ridge_ = Bitmap(field.width(), field.height(), false, [&] { execution.check(); });
   const auto bands = parts_of_chunks((field.height() + tile - 1) / tile, 1, execution, [&](Range r) {
-    return places_of(field, least, as_whole<std::uint32_t>(r.first) * tile);
+    return places_of(field, least, as_whole<std::uint32_t>(r.first) * tile, execution);
   });
   std::size_t count = 0;
   for (const auto& band : bands) count += band.size();
@@ -111,6 +119,7 @@ CorridorCells::CorridorCells(const DistanceField& field, double least, const Exe
   weight_sums_.reserve(count);
   double sum = 0.0;
   for (const auto& band : bands) {
+    execution.check();
     for (const std::uint32_t place : band) {
       sum += 1.0 / field.distance(place % width_, place / width_);
       places_.push_back(place);
@@ -152,8 +161,8 @@ constexpr std::size_t rows_a_chunk = 64;
 }  // namespace
 
 Bitmap cell_milestones(const Bitmap& blocked, const Execution& execution) {
-  Bitmap kept(blocked.width(), blocked.height());
-  execution.reserve(kept.bytes());
+  execution.reserve(blocked.bytes());
+  Bitmap kept(blocked.width(), blocked.height(), false, [&] { execution.check(); });
   constexpr std::uint64_t odd_columns = 0xAAAAAAAAAAAAAAAAU;
   for_each_index(blocked.height(), rows_a_chunk, execution, [&](std::size_t y) {
     const auto number = as_whole<std::int64_t>(y);
@@ -173,13 +182,14 @@ Bitmap cell_milestones(const Bitmap& blocked, const Execution& execution) {
   return kept;
 }
 
-bool is_narrow(const Bitmap& blocked) {
+bool is_narrow(const Bitmap& blocked, const Execution& execution) {
   if (blocked.empty()) return false;
   std::uint64_t free = 0;
   std::uint64_t wide = 0;
   FreeRow below(blocked, -1);
   FreeRow row(blocked, 0);
   for (std::int64_t y = 0; y < blocked.height(); ++y) {
+    execution.check();
     FreeRow above(blocked, y + 1);
     for (std::size_t w = 0; w < blocked.row(0).size(); ++w) {
       const auto square = [&](const FreeRow& other) {

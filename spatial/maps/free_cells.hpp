@@ -26,8 +26,8 @@ namespace warren {
 class FreeCells {
  public:
   FreeCells() = default;
-  /// Throws InputError where the padded map would have 2^32 cells or more.
-  explicit FreeCells(const Bitmap& blocked);
+  /// Throws InputError where the padded map would have 2^32 cells or more, Stopped.
+  explicit FreeCells(const Bitmap& blocked, const Execution& execution = {});
 
   std::uint32_t width() const { return width_; }
   std::uint32_t height() const { return height_; }
@@ -143,7 +143,7 @@ inline constexpr double cell_milestone_reach = 2.0 * (1.0 + 1e-6);
 Bitmap cell_milestones(const Bitmap& blocked, const Execution& execution);
 
 /// Are most free cells in passages one cell wide, that is, in no square of two by two free cells? There a sample drawn
-/// anywhere seldom sees the next one, and the middles of the cells are the cheaper milestones.
-bool is_narrow(const Bitmap& blocked);
+/// anywhere seldom sees the next one, and the middles of the cells are the cheaper milestones. Throws Stopped.
+bool is_narrow(const Bitmap& blocked, const Execution& execution = {});
 
 }  // namespace warren

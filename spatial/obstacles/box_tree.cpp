@@ -32,15 +32,19 @@ struct BoxTree<D>::Building {
 };
 
 template <int D>
-BoxTree<D>::BoxTree(std::span<const BoxOf<D>> boxes, const Execution& execution) : order_(boxes.size()) {
+BoxTree<D>::BoxTree(std::span<const BoxOf<D>> boxes, const Execution& execution) {
   if (boxes.empty()) return;
+  execution.reserve(boxes.size() * (sizeof(Node) + sizeof(BoxOf<D>) + 2 * sizeof(std::uint32_t)));
+  order_.resize(boxes.size());
   std::iota(order_.begin(), order_.end(), 0U);
   nodes_.reserve(boxes.size());
   Building building{boxes, execution, std::vector<std::uint32_t>(boxes.size())};
   build(0, as_whole<std::uint32_t>(boxes.size()), building);
-  execution.check();
   boxes_.reserve(boxes.size());
-  for (const std::uint32_t id : order_) boxes_.push_back(boxes[id]);
+  for (const std::uint32_t id : order_) {
+    execution.poll(boxes_.size());
+    boxes_.push_back(boxes[id]);
+  }
 }
 
 /// Depth of the tree: the halves differ by one, so at most 31 for 2^31 boxes. Ids are in order, and stay so in both
@@ -51,7 +55,10 @@ void BoxTree<D>::build(std::uint32_t first, std::uint32_t last, Building& buildi
   const std::span<const BoxOf<D>> boxes = building.boxes;
   const std::span<std::uint32_t> ids(order_.data() + first, last - first);
   BoxOf<D> box = boxes[ids.front()];
-  for (const std::uint32_t id : ids) box = joined(box, boxes[id]);
+  for (const std::uint32_t id : ids) {
+    building.execution.poll(id);
+    box = joined(box, boxes[id]);
+  }
   const auto node = as_whole<std::uint32_t>(nodes_.size());
   nodes_.push_back({box, first, last - first});
   if (ids.size() <= box_leaf_size) return;

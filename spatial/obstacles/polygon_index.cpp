@@ -17,7 +17,7 @@ struct PolygonIndex::Crossings {
 
 PolygonIndex::PolygonIndex(PolygonSet polygons, const Execution& execution) : polygons_(std::move(polygons)) {
   const std::size_t n = polygons_.corners.size();
-  execution.reserve(n * (sizeof(std::uint32_t) + sizeof(Box) / 7) + polygons_.size() * 3 * sizeof(Box));
+  execution.reserve(n * (sizeof(std::uint32_t) + sizeof(Box) / 7) + polygons_.size() * sizeof(Box));
   next_.resize(n);
   constexpr std::size_t grain = std::size_t{1} << 12;
   std::vector<BoxOf<2>> boxes(polygons_.size());

@@ -94,6 +94,7 @@ TEST(Largest, BadOptionsAreUsageErrorsThatNameTheOption) {
                         Case{"largest --loops 2", "--loops"},
                         Case{"largest --start 1,1", "--start"},
                         Case{"largest --clearance -1", "--clearance"},
+                        Case{"largest --planner rrt --search bfs --queue heap", "--planner"},
                         Case{"largest --json - --svg -", "--picture"},
                         Case{"largest maze:4x4", "maze:4x4"},
                         Case{"scale --budget 0s", "--budget"},

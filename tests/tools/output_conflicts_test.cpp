@@ -75,6 +75,7 @@ TEST_F(OutputConflicts, NoVerbOverwritesItsInput) {
   refused("solve @w.scene --trace @w.scene", said);
   refused("verify @w.scene @a.json --json @a.json", said);
   refused("verify @w.scene @a.json --json @w.scene", said);
+  refused("verify @w.scene @a.json --certificate @m.pgm --json @m.pgm", said);
   refused("info @w.scene --json @w.scene", said);
   refused("convert @w.scene -o @w.scene", said);
   refused("render @w.scene --answer @a.json -o @a.json", said);
@@ -133,6 +134,13 @@ TEST_F(OutputConflicts, StandardOutputTakesOne) {
   refused("verify @w.scene @a.json --json - --trace -", said);
   refused("generate maze 3x3 -o - --trace -", said);
   refused("solve @w.scene --json - --svg /dev/stdout", said);
+  refused("verify @w.scene - --certificate -", "can't both come from standard input");
+}
+
+TEST_F(OutputConflicts, ATraceOnStandardOutputStandsAlone) {
+  const Outcome verified = run(words("verify @w.scene @a.json --trace -"));
+  EXPECT_EQ(verified.code, 0);
+  EXPECT_TRUE(verified.out.starts_with('{') && verified.out.ends_with("]}\n")) << verified.out;
 }
 
 TEST_F(OutputConflicts, WhatIsNoConflictIsWritten) {

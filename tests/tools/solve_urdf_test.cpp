@@ -135,7 +135,6 @@ TEST_F(SolveUrdf, AJointWithoutEndGoesTheShorterWay) {
   EXPECT_EQ(run({"verify", file_, file}).code, 0);
 }
 
-/// The first goal is farther than the way to the second. Of one joint and of two.
 TEST_F(SolveUrdf, StatesOfFewJointsAreNoPlaces) {
   const std::string robot = folder_.write(
       "rail.urdf",
@@ -147,6 +146,7 @@ TEST_F(SolveUrdf, StatesOfFewJointsAreNoPlaces) {
   EXPECT_TRUE(narrowest["place"].is_null()) << narrowest;
 }
 
+/// The first goal is farther than the way to the second. Of one joint and of two.
 TEST_F(SolveUrdf, SeveralNamedGoalsAreBoundedAndToldTogether) {
   const std::string slides =
       R"(<robot name="r"><link name="b"/><link name="s"/><link name="t"><collision><geometry><sphere radius="0.05"/></geometry></collision></link>)"

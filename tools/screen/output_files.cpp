@@ -73,6 +73,9 @@ constexpr std::array<std::string_view, 16> output_options{
 constexpr std::array<std::string_view, 6> input_options{"--answer", "--map",   "--batch",
                                                         "--matrix", "--world", "--srdf"};
 
+/// What `solve` writes there `verify` reads.
+bool reads_certificate(const Arguments& arguments) { return arguments.verb() == "verify"; }
+
 /// Where a file is, or will be: two are the same file exactly if their places are equal.
 struct Place {
   dev_t device = 0;
@@ -110,6 +113,7 @@ std::vector<NamedFile> outputs_of(const Arguments& arguments) {
   for (const std::string_view option : output_options) {
     const auto path = arguments.value(option);
     if (!path || path->empty()) continue;  // as a flag, --csv names no file
+    if (option == "--certificate" && reads_certificate(arguments)) continue;
     files.push_back({std::string{option}, is_standard_output(*path) ? "-" : *path});
     if (option != "--output") continue;
     const std::string ending = ending_of(*path);
@@ -241,6 +245,8 @@ void check_outputs(const Arguments& arguments) {
   for (const std::string_view option : input_options) {
     for (std::string& path : arguments.values(option)) inputs.push_back({std::string{option}, std::move(path)});
   }
+  const auto proof = arguments.value("--certificate");
+  if (proof && reads_certificate(arguments)) inputs.push_back({"--certificate", *proof});
   check_standard_stream(inputs, "{} and {} can't both come from standard input");
   for (const NamedFile& input : inputs) check_not_written(arguments, input.path);
   files.insert(files.end(), inputs.begin(), inputs.end());

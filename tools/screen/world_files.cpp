@@ -39,16 +39,6 @@ constexpr OptionSpec world_specs[] = {
   throw UsageError(fmt::format("--map-rules: is for the YAML of map_server, and {} is none", source));
 }
 
-/// Whoever types a maze's size, or the word alone, is told how a maze is called.
-InputFile file_of_world(const std::string& source, const Execution& execution) {
-  const bool is_size = source == "maze" || source.find_first_not_of("0123456789x") == std::string::npos;
-  std::error_code ignored;
-  if (is_size && !std::filesystem::exists(source, ignored)) {
-    throw ReadError(source.empty() ? "''" : source, "there is no such file; a maze is called maze:41x41");
-  }
-  return InputFile(source, execution);
-}
-
 /// Of --robot, else of the other one.
 std::optional<ArmFiles> files_of(const Arguments& arguments, const std::optional<RobotSpec>& other) {
   const auto words = arguments.value("--robot");
@@ -77,10 +67,19 @@ void refuse_another_robot(const ArmFiles& before, const Scene& scene, const Argu
 
 std::span<const OptionSpec> world_option_specs() { return world_specs; }
 
+const std::string& named_world(const std::string& source) {
+  const bool is_size = source == "maze" || source.find_first_not_of("0123456789x") == std::string::npos;
+  std::error_code ignored;
+  if (is_size && !std::filesystem::exists(source, ignored)) {
+    throw ReadError(source.empty() ? "''" : source, "there is no such file; a maze is called maze:41x41");
+  }
+  return source;
+}
+
 Scene load_world(const std::string& source, const Arguments& arguments, const Execution& execution, StageTimes* seconds,
                  const std::optional<RobotSpec>& robot) {
   if (!is_made_source(source))
-    return load_world(file_of_world(source, execution), arguments, execution, seconds, robot);
+    return load_world(InputFile(named_world(source), execution), arguments, execution, seconds, robot);
   if (arguments.has("--map-rules")) refuse_rules(source);
   if (arguments.has("--request")) throw UsageError("--request: is for a world with an arm, and this one is made");
   const StageTimer timer(execution, "generate", seconds != nullptr ? &seconds->generate : nullptr);
@@ -104,7 +103,7 @@ Scene load_planned_world(const std::string& source, std::optional<PipelineKind> 
     if (scene && is_left_out(*scene->maze) && !arguments.has("--request")) return std::move(*scene);
     return load_world(source, arguments, execution, seconds);
   }
-  const InputFile file = file_of_world(source, execution);
+  const InputFile file(named_world(source), execution);
   std::error_code ignored;
   const bool plain = !arguments.has("--map-rules") && !arguments.has("--request");
   if (std::filesystem::is_regular_file(source, ignored) && plain) {
@@ -153,7 +152,7 @@ Scene load_world_alone(const std::string& source, const Arguments& arguments, co
                        std::string_view other_use) {
   if (!arguments.has("--robot") || arguments.has("--request")) return load_world(source, arguments, execution);
   std::optional<InputFile> file;
-  if (!is_made_source(source)) file.emplace(source, execution);
+  if (!is_made_source(source)) file.emplace(named_world(source), execution);
   check_robot_has_use(file ? &*file : nullptr, arguments, other_use);
   return load_world(*file, arguments, execution);
 }

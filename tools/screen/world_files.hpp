@@ -30,6 +30,9 @@ std::span<const OptionSpec> world_option_specs();
 Scene load_world(const std::string& source, const Arguments& arguments, const Execution& execution,
                  StageTimes* seconds = nullptr, const std::optional<RobotSpec>& robot = {});
 
+/// `source`, which is no made one: whoever types a maze's size, or the word alone, is told how a maze is called.
+const std::string& named_world(const std::string& source);
+
 /// The same, but walls are left out that can be had tile by tile (is_unmade): where `pipeline` is streamed, or where it
 /// is not said and the memory would not hold them while they are planned among.
 Scene load_planned_world(const std::string& source, std::optional<PipelineKind> pipeline, const Arguments& arguments,

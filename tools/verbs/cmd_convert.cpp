@@ -87,7 +87,7 @@ std::string write_any(Scene& scene, const std::string& file, const Arguments& ar
   if (is_map_ending(file) || (file.ends_with(".png") && (scene.map || arguments.has("--cell")))) {
     arguments.refuse(picture_option_specs(), "is for a picture; an image of a map has a pixel a cell");
     const auto cell = given_value(arguments, "--cell", positive_value);
-    if (cell) check_cell(*cell, scene);
+    if (cell) check_cell(*cell, scene, execution);
     if (scene.map && cell) throw UsageError("--cell: the world is a map, and its cells stay as they are");
     if (!scene.map && !cell) throw UsageError("--cell: is missing; it says how large a cell of the map shall be");
     const OccupancyMap map = scene.map ? *scene.map : map_of_scene(scene, *cell, execution);

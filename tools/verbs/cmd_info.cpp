@@ -76,7 +76,7 @@ int info(const Arguments& arguments) {
     throw UsageError(fmt::format("--check: takes `all` (found: '{}')", *what));
   Run run(arguments);
   std::optional<InputFile> file;
-  if (!is_made_source(path)) file.emplace(path, run.execution());
+  if (!is_made_source(path)) file.emplace(named_world(path), run.execution());
   auto roadmap = file ? opened_roadmap(*file, path, run.execution()) : nullptr;
   constexpr std::size_t head = 4096;
   const bool is_robot = file && roadmap == nullptr && file->bytes().substr(0, head).find("<robot") != std::string::npos;

@@ -34,26 +34,25 @@ std::string verdict_json(const Verdict& v, const std::string& narrowest) {
   return json.closed() + "\n";
 }
 
-void print_verdict(const Verdict& v, std::string_view metres, const Palette& palette) {
+std::string verdict_text(const Verdict& v, std::string_view metres, const Palette& palette) {
   const double clearance = v.problem.clearance;
   if (v.verified) {
-    return print_text(
-        fmt::format("{0}: length {2}{1}, clearance {3}{1} at least, {4}{1} asked for{5}\n", palette.good("verified"),
-                    metres, human_number(v.length), human_number(v.min_clearance), human_number(clearance),
-                    v.bound == BoundVerdict::absent ? "" : fmt::format(", lower bound {}", name_of(v.bound))));
+    return fmt::format("{0}: length {2}{1}, clearance {3}{1} at least, {4}{1} asked for{5}\n", palette.good("verified"),
+                       metres, human_number(v.length), human_number(v.min_clearance), human_number(clearance),
+                       v.bound == BoundVerdict::absent ? "" : fmt::format(", lower bound {}", name_of(v.bound)));
   }
   const Violation violation = v.first_violation.value_or(Violation{});
   if (violation.kind == ViolationKind::claim) {
-    return print_text(fmt::format("{}, {}\n", palette.bad("refuted"), violation.obstacle));
+    return fmt::format("{}, {}\n", palette.bad("refuted"), violation.obstacle);
   }
   if (violation.kind == ViolationKind::motion) {
-    return print_text(fmt::format("{} at leg {}: {}\n", palette.bad("refuted"), violation.leg, violation.obstacle));
+    return fmt::format("{} at leg {}: {}\n", palette.bad("refuted"), violation.leg, violation.obstacle);
   }
   const std::string distance = human_number(violation.distance);
   std::string needed = human_number(clearance + v.problem.robot.radius);
-  print_text(fmt::format("{0} at leg {2}: {3}, distance {4}{1}, {5} asked for\n", palette.bad("refuted"), metres,
-                         violation.leg, violation.obstacle, distance,
-                         distance == needed ? "a hair more" : needed.append(metres)));
+  return fmt::format("{0} at leg {2}: {3}, distance {4}{1}, {5} asked for\n", palette.bad("refuted"), metres,
+                     violation.leg, violation.obstacle, distance,
+                     distance == needed ? "a hair more" : needed.append(metres));
 }
 
 int verify_answer(const Arguments& arguments) {
@@ -86,10 +85,10 @@ int verify_answer(const Arguments& arguments) {
   run.end();
   const std::string told = explains ? narrowest_json(narrow) : "";
   if (json) write_file(*json, verdict_json(verdict, told), run.execution_for_what_is_left());
-  if (!run.quiet() && !(json && is_standard_output(*json))) {
-    print_verdict(verdict, metres_behind(unit_of(scene)), run.palette());
-    if (narrow) print_text(text_of(*narrow) + "\n");
-  }
+  run.conclude([&] {
+    return verdict_text(verdict, metres_behind(unit_of(scene)), run.palette()) +
+           (narrow ? text_of(*narrow) + "\n" : std::string());
+  });
   return verdict.verified ? exit_code::success : exit_code::no_path;
 }
 

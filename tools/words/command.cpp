@@ -28,7 +28,7 @@ std::vector<std::string> words_of(std::string_view text) {
 
 bool is_among(std::string_view word, std::string_view words) { return std::ranges::count(words_of(words), word) > 0; }
 
-Arguments::Arguments(const Command& command, std::span<const std::string> words) {
+Arguments::Arguments(const Command& command, std::span<const std::string> words) : verb_(command.name) {
   command_line_ = "warren " + std::string{command.name};
   for (const std::string& word : words) command_line_ += ' ' + word;
   bool options_ended = false;

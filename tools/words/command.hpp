@@ -39,6 +39,7 @@ class Arguments {
   void refuse(std::span<const OptionSpec> options, std::string_view why) const;
   /// These words, but for some options.
   Arguments without(std::span<const std::string_view> options) const;
+  std::string_view verb() const { return verb_; }
   const std::string& operand(std::size_t i) const { return operands_[i]; }
   std::size_t operand_count() const { return operands_.size(); }  ///< fewer than the command's where some are optional
   /// The command line as it was given, for the pictures' descriptions.
@@ -51,6 +52,7 @@ class Arguments {
   void take_option(const Command& command, std::span<const std::string> words, std::size_t& i);
   void check_operands(const Command& command) const;
 
+  std::string_view verb_;
   std::vector<std::pair<std::string_view, std::string>> options_;  // name in the table, value
   std::vector<std::string> operands_;
   std::string command_line_;

@@ -33,7 +33,7 @@ namespace {
 }
 
 /// Does the wall run along sides of blocked cells, where a judge of the cells sees it?
-bool runs_along_blocked(const OccupancyMap& map, const Segment& wall) {
+bool runs_along_blocked(const OccupancyMap& map, const Segment& wall, const Execution& execution) {
   const double most = 2.0 + std::max(map.width(), map.height());
   Box around;  // of both ends, in whole cells
   for (const Vec2 end : {wall.a, wall.b}) {
@@ -52,6 +52,7 @@ bool runs_along_blocked(const OccupancyMap& map, const Segment& wall) {
   auto y = bounded_whole<std::int64_t>(around.min.y);
   const auto length = bounded_whole<std::int64_t>(level ? around.width() : around.height());
   for (std::int64_t i = 0; i < length; ++i) {  // cell by cell, on either side
+    execution.poll(as_whole<std::uint64_t>(i));
     if (!blocked(x, y) && !(level ? blocked(x, y - 1) : blocked(x - 1, y))) return false;
     ++(level ? x : y);
   }
@@ -63,7 +64,7 @@ void check_walls_of_map(const Scene& scene, const Execution& execution) {
   constexpr std::size_t grain = std::size_t{1} << 12;
   const std::size_t count = scene.walls.size();
   const std::size_t i = first_that(count, grain, execution.quiet(), [&](std::size_t wall) {
-    return !runs_along_blocked(*scene.map, scene.walls.segment(wall));
+    return !runs_along_blocked(*scene.map, scene.walls.segment(wall), execution);
   });
   if (i < count) refuse(scene, fmt::format("wall {} runs over free cells of the map: the map is judged alone", i));
 }
@@ -184,10 +185,17 @@ PathScreen::Rest screened(const PathScreen& screen, std::size_t count, std::size
     PathScreen::Rest rest;
     const auto& walls = walls_in(r);
     screen.sift(std::span(walls), first_number + r.first, rest);
+    execution.reserve(rest.doubtful.size() * sizeof(std::size_t));
     return rest;
   };
   PathScreen::Rest all;
-  for (const PathScreen::Rest& part : parts_of_chunks(count, verify_grain, execution, rest_of)) {
+  const std::vector<PathScreen::Rest> parts = parts_of_chunks(count, verify_grain, execution, rest_of);
+  std::size_t doubtful = 0;
+  for (const PathScreen::Rest& part : parts) doubtful += part.doubtful.size();
+  execution.reserve(doubtful * sizeof(std::size_t));
+  all.doubtful.reserve(doubtful);
+  for (const PathScreen::Rest& part : parts) {
+    execution.check();
     all.doubtful.insert(all.doubtful.end(), part.doubtful.begin(), part.doubtful.end());
     all.box.include(part.box);
   }
@@ -210,6 +218,7 @@ PathScreen::Rest screened(const PathScreen& screen, const WallSet& all_walls, co
   };
   const PathScreen::Rest sides =
       screened(screen, obstacles.sides().size(), obstacles.wall_count(), execution, sides_in);
+  execution.reserve((all.doubtful.size() + sides.doubtful.size()) * sizeof(std::size_t));
   all.doubtful.insert(all.doubtful.end(), sides.doubtful.begin(), sides.doubtful.end());
   for (const Ring& ring : obstacles.rings()) {
     if (ring.polygon != Ring::none) all.box.include(ring.box);  // the bounds are no obstacle in this sense

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <map>
 
+#include "core/base/raw_vector.hpp"
 #include "core/base/whole.hpp"
+#include "parallel/asked_memory.hpp"
 
 namespace warren {
 namespace {
@@ -13,18 +15,18 @@ namespace {
 /// Cells whose middle is nearer than what is kept to a closed blocked square or to the map's outside: the nearest
 /// blocked row of each column, then all columns that may be near enough.
 Bitmap cells_without_room(const OccupancyMap& map, double keeps, const Execution& execution) {
+  execution.reserve(map.blocked.bytes());
   if (!(keeps > 0.0)) return map.blocked;
   const double half_cells = 2.0 * keeps / map.cell;
   const double needed_sq = half_cells * half_cells;
   const auto width = std::int64_t{map.width()};
   const auto height = std::int64_t{map.height()};
   const auto around = std::min(width, bounded_whole<std::int64_t>(0.5 * half_cells + 2.0, 1.0, 1e9));
-  const auto stride = width + 2 * around;  // columns beyond the map, all blocked, on both sides
-  const auto count = as_whole<std::size_t>(stride * height);
-  execution.reserve(sizeof(std::int32_t) * count + map.blocked.bytes());
-  std::vector<std::int32_t> rows_off(count);  // to the nearest blocked row
+  const auto count = as_whole<std::size_t>(width * height);
+  execution.reserve(sizeof(std::int32_t) * (count + as_whole<std::size_t>(width + 3 * around)));
+  RawVector<std::int32_t> rows_off(count);  // to the nearest blocked row
   const auto at = [&](std::int64_t x, std::int64_t y) -> std::int32_t& {
-    return rows_off[as_whole<std::size_t>(y * stride + x + around)];
+    return rows_off[as_whole<std::size_t>(y * width + x)];
   };
   for (std::int64_t y = 0; y < height; ++y) {
     execution.check();
@@ -37,18 +39,22 @@ Bitmap cells_without_room(const OccupancyMap& map, double keeps, const Execution
   const auto gap = [](std::int64_t cells) { return static_cast<double>(std::max<std::int64_t>(2 * cells - 1, 0)); };
   std::vector<std::int32_t> near_rows;  // by columns off: a blocked square fewer rows off is too near
   for (std::int64_t columns = 0; columns <= around; ++columns) {
+    execution.check();
     std::int32_t rows = 0;
     while (rows <= height && gap(rows) * gap(rows) + gap(columns) * gap(columns) < needed_sq) ++rows;
     near_rows.push_back(rows);
   }
   Bitmap closed(map.width(), map.height());
+  std::vector<std::int32_t> padded(as_whole<std::size_t>(width + 2 * around));  // a row; beyond the map all is blocked
   std::vector<std::uint8_t> is_near(as_whole<std::size_t>(width));
   for (std::int64_t y = 0; y < height; ++y) {
     execution.check();
+    std::copy_n(&at(0, y), width, &padded[as_whole<std::size_t>(around)]);
     std::fill(is_near.begin(), is_near.end(), std::uint8_t{0});
     for (std::int64_t off = -around; off <= around; ++off) {
+      if (off % 256 == 0) execution.check();
       const std::int32_t rows = near_rows[as_whole<std::size_t>(std::abs(off))];
-      const std::int32_t* row = &at(off, y);
+      const std::int32_t* row = padded.data() + (around + off);
       for (std::size_t x = 0; x < is_near.size(); ++x) is_near[x] |= row[x] < rows ? 1 : 0;
     }
     for (std::int64_t x = 0; x < width; ++x) {
@@ -69,22 +75,19 @@ struct Ray {
 class Holes {
  public:
   Holes(const Bitmap& closed, double least, const Execution& execution) {
-    std::vector<std::size_t> before;  // runs of the row below
+    std::size_t below = 0;  // the first run of the row below that the next run may touch
     for (std::uint32_t y = 0; y < closed.height(); ++y) {
       execution.check();
-      std::vector<std::size_t> here;
+      const std::size_t here = runs_.size();  // the first of this row
       for (std::uint32_t x = 0; x < closed.width(); ++x) {
         if (!closed.test(x, y)) continue;
         const std::uint32_t first = x;
         while (x + 1 < closed.width() && closed.test(x + 1, y)) ++x;
-        here.push_back(runs_.size());
-        runs_.push_back({first, x, y, runs_.size()});
-        for (const std::size_t below : before) {
-          const Run& run = runs_[below];
-          if (run.first <= x + 1 && first <= run.last + 1) join(below, here.back());
-        }
+        push_asked(runs_, {first, x, y, runs_.size()}, execution);
+        while (below < here && runs_[below].last + 1 < first) ++below;
+        for (std::size_t i = below; i < here && runs_[i].first <= x + 1; ++i) join(i, runs_.size() - 1);
       }
-      before = std::move(here);
+      below = here;
     }
     struct Extent {
       Run right;  // that reaches farthest
@@ -92,11 +95,15 @@ class Holes {
     };
     std::map<std::size_t, Extent> holes;  // by the first run of each: of its lowest cells the leftmost
     for (std::size_t i = 0; i < runs_.size(); ++i) {
+      execution.poll(i);
       const Run& run = runs_[i];
-      Extent& extent = holes.try_emplace(root(i), Extent{run, {}}).first->second;
+      const auto [found, is_new] = holes.try_emplace(root(i), Extent{run, {}});
+      if (is_new) execution.reserve(sizeof *found + 4 * sizeof(void*));  // for the next one
+      Extent& extent = found->second;
       if (run.last > extent.right.last) extent.right = run;
       extent.box.include(Box{{1.0 * run.first, 1.0 * run.row}, {run.last + 1.0, run.row + 1.0}});
     }
+    execution.reserve(closed.bytes());
     Bitmap ends = closed;  // where cuts end: small holes are passed over
     for (const auto& [number, e] : holes) {
       execution.check();
@@ -104,17 +111,20 @@ class Holes {
           e.box.min.x == 0.0 || e.box.min.y == 0.0 || e.box.max.x == closed.width() || e.box.max.y == closed.height();
       if (!at_border && std::max(e.box.width(), e.box.height()) < least) {
         for (std::size_t i = number; i < runs_.size() && runs_[i].row < e.box.max.y; ++i) {
+          execution.poll(i);
           for (std::uint32_t x = runs_[i].first; root(i) == number && x <= runs_[i].last; ++x) {
             ends.clear(x, runs_[i].row);
           }
         }
       } else if (!at_border) {
-        rays_.push_back({e.right.last + 0.5, e.right.row + 0.5, as_whole<std::int32_t>(rays_.size() + 1)});
-        boxes_.push_back(e.box);
-        cuts_.push_back({runs_[number].first, runs_[number].row, runs_[number].row});
+        const auto hole = as_whole<std::int32_t>(rays_.size() + 1);
+        push_asked(rays_, {e.right.last + 0.5, e.right.row + 0.5, hole}, execution);
+        push_asked(boxes_, e.box, execution);
+        push_asked(cuts_, {runs_[number].first, runs_[number].row, runs_[number].row}, execution);
       }
     }
     for (Cut& cut : cuts_) {
+      execution.check();
       while (cut.low > 0 && !ends.test(cut.column, cut.low - 1) && !ends.test(cut.column + 1, cut.low - 1)) --cut.low;
     }
     std::stable_sort(rays_.begin(), rays_.end(), [](const Ray& a, const Ray& b) { return a.y < b.y; });
@@ -193,6 +203,7 @@ JudgedClasses judged_classes(const OccupancyMap& map, const ClassRule& rule, std
                              const Execution& execution) {
   const Holes holes(cells_without_room(map, rule.keeps, execution), rule.hole / map.cell * (1.0 - 1e-12), execution);
   const std::vector<std::vector<std::int32_t>> empty(paths.size());
+  execution.reserve(holes.boxes().size() * sizeof(Box));
   JudgedClasses judged{empty, empty, holes.boxes()};
   for (std::size_t i = 0; i < paths.size(); ++i) {
     for (std::size_t leg = 1; leg < paths[i].size(); ++leg) {

@@ -8,6 +8,7 @@
 #include "core/base/error.hpp"
 #include "core/base/trigonometry.hpp"
 #include "core/base/whole.hpp"
+#include "parallel/asked_memory.hpp"
 #include "verify/exact/exact_segments.hpp"
 #include "verify/near/obstacle_index.hpp"
 #include "verify/near/sides_near_legs.hpp"
@@ -157,6 +158,7 @@ class NearCells {
       const std::int64_t last = std::min<std::int64_t>(x + around, map_.width() - 1);
       const std::int64_t last_row = std::min<std::int64_t>(y + around, map_.height() - 1);
       for (std::int64_t row = std::max<std::int64_t>(y - around, 0); row <= last_row; ++row) {
+        if (row % 64 == 0) execution_.check();
         for (std::int64_t first = std::max<std::int64_t>(x - around, 0); first <= last; first += Bitmap::word_bits) {
           for (std::uint64_t rest = closed_from(first, row, last); rest != 0; rest &= rest - 1) {
             add_cell(x, y, first + std::countr_zero(rest), row, p, u);
@@ -181,9 +183,9 @@ class NearCells {
     if (up != 0 && hides(column, row - up)) return;
     const double off_x = static_cast<double>(right > 0 ? column : column + 1) - p.x;
     const double off_y = static_cast<double>(up > 0 ? row : row + 1) - p.y;
-    if (right != 0 && up != 0) return things_.push_back(SquaredDistance::to_place({off_x, off_y}, u));
-    if (right != 0) return things_.push_back(SquaredDistance::to_line(off_x, u.x));
-    if (up != 0) return things_.push_back(SquaredDistance::to_line(off_y, u.y));
+    if (right != 0 && up != 0) return push_asked(things_, SquaredDistance::to_place({off_x, off_y}, u), execution_);
+    if (right != 0) return push_asked(things_, SquaredDistance::to_line(off_x, u.x), execution_);
+    if (up != 0) return push_asked(things_, SquaredDistance::to_line(off_y, u.y), execution_);
     things_.push_back(SquaredDistance::to_line(0.0, 0.0));
   }
 
@@ -211,18 +213,18 @@ class NearSides {
                             [&](std::size_t number) {
                               const Segment side = index_.obstacles().segment(number);
                               if (exact::gap_sq(box_of(side), box) > reach_ * reach_) return;
-                              near_.push_back(side);
+                              push_asked(near_, side, execution_);
                               for (const Vec2 end : {side.a, side.b}) {
                                 const double along = dot(ray.u, side.b - side.a);
                                 const double t = dot(end - ray.from, side.b - side.a) / along;
-                                if (t > 0.0 && t < ray.length) cuts_.push_back(t);
+                                if (t > 0.0 && t < ray.length) push_asked(cuts_, t, execution_);
                               }
                             });
     return sum_of_pieces(cuts_, ray.length, execution_, [&](double from, double to) {
       things_.clear();
       const Vec2 p = ray.at(from);
       const Vec2 middle = ray.at(0.5 * (from + to));
-      for (const Segment& side : near_) things_.push_back(seen(side, p, ray.u, middle));
+      for (const Segment& side : near_) push_asked(things_, seen(side, p, ray.u, middle), execution_);
       return nearness_.over(things_, to - from, reach_);
     });
   }
@@ -304,7 +306,9 @@ class BodyNearness {
     std::vector<Box> boxes;  // around all parts of all legs, in their order
     for (const BodyLeg& leg : legs) {
       execution_.check();
-      for (double i = 0.0, parts = parts_of(leg); i < parts; ++i) boxes.push_back(box_of_part(leg, i, parts));
+      for (double i = 0.0, parts = parts_of(leg); i < parts; ++i) {
+        push_asked(boxes, box_of_part(leg, i, parts), execution_);
+      }
     }
     surroundings_.file(boxes, execution_);
   }
@@ -473,6 +477,7 @@ PriceParts verify_body_price(const Scene& scene, std::span<const Se2> path, cons
   PriceParts parts;
   execution.reserve(path.size() * sizeof(BodyLeg));
   std::vector<BodyLeg> legs;
+  legs.reserve(path.size());
   for (std::size_t i = 1; i < path.size(); ++i) legs.push_back(leg_of(robot, path[i - 1], path[i]));
   JudgedFactors factors(scene, prices, execution);
   for (const BodyLeg& leg : legs) {

@@ -18,7 +18,10 @@ std::vector<Segment> all_sides(const PolygonIndex& polygons, const Scene& scene,
   execution.reserve(count * sizeof(Segment));
   std::vector<Segment> sides = bounds_walls(scene);
   sides.reserve(sides.size() + count);
-  for (std::size_t i = 0; i < count; ++i) sides.push_back(polygons.side(i));
+  for (std::size_t i = 0; i < count; ++i) {
+    execution.poll(i);
+    sides.push_back(polygons.side(i));
+  }
   return sides;
 }
 
@@ -71,14 +74,19 @@ PlaneObstacles translation_obstacles(const Scene& scene, std::span<const Vec2> o
   const std::vector<std::vector<Vec2>> body = mirrored_pieces(outline, theta, room, disc_corners);
   PlaneObstacles obstacles;
   const auto add_sums = [&](std::span<const Vec2> piece) {
-    for (const std::vector<Vec2>& mirrored : body) obstacles.polygons.add(minkowski_sum(piece, mirrored));
+    execution.check();
+    for (const std::vector<Vec2>& mirrored : body) {
+      auto& [corners, first] = obstacles.polygons;
+      const std::vector<Vec2> sum = minkowski_sum(piece, mirrored);
+      const bool grows = corners.size() + sum.size() > corners.capacity() || first.size() == first.capacity();
+      if (grows) execution.reserve(2 * (corners.capacity() * sizeof(Vec2) + first.capacity() * sizeof first[0]));
+      obstacles.polygons.add(sum);
+    }
   };
   for (const ScenePolygon& polygon : scene.polygons) {
-    execution.check();
     for (const std::vector<Vec2>& piece : convex_pieces(polygon.corners)) add_sums(piece);
   }
   for (std::size_t i = 0; i < scene.walls.size(); ++i) {
-    execution.poll(i);
     const Segment wall = scene.walls.segment(i);
     const std::vector<Vec2> ends = wall.a == wall.b ? std::vector{wall.a} : std::vector{wall.a, wall.b};
     add_sums(ends);

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/base/whole.hpp"
+#include "parallel/asked_memory.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "worlds/rasters/lattice_polygons.hpp"
 
@@ -89,7 +90,7 @@ bool stays_before(const Footprint& body, double time, Vec2 p, Vec2 outward, doub
 template <class Thing>
 BoxTree<2> tree_around(const std::vector<Thing>& things, const Execution& execution) {
   std::vector<BoxOf<2>> boxes;
-  for (const Thing& thing : things) boxes.push_back(box_of_body(thing));
+  for (const Thing& thing : things) push_asked(boxes, box_of_body(thing), execution);
   return BoxTree<2>(boxes, execution);
 }
 
@@ -121,31 +122,42 @@ ObstacleTree::ObstacleTree(const Scene& scene, double reach, const Execution& ex
   std::vector<Segment> sides;
   std::vector<std::span<const Vec2>> convex;
   std::vector<std::span<const Vec2>> others;
-  for (std::size_t i = 0; i < scene.walls.size(); ++i) sides.push_back(scene.walls.segment(i));
+  for (std::size_t i = 0; i < scene.walls.size(); ++i) {
+    execution.poll(i);
+    push_asked(sides, scene.walls.segment(i), execution);
+  }
   for (const ScenePolygon& polygon : scene.polygons) {
+    execution.check();
     if (turning_of(polygon.corners) != 0) {
-      convex.emplace_back(polygon.corners);
+      push_asked(convex, polygon.corners, execution);
       continue;
     }
-    others.emplace_back(polygon.corners);
-    for_each_side(polygon.corners, [&](Vec2 a, Vec2 b) { sides.push_back({a, b}); });
+    push_asked(others, polygon.corners, execution);
+    for_each_side(polygon.corners, [&](Vec2 a, Vec2 b) { push_asked(sides, {a, b}, execution); });
   }
   const auto side_between = [](Vec2 a, Vec2 b) { return Side{a, b - a, inverse_square(b - a)}; };
   side_tree_ = tree_around(sides, execution);
-  for (const std::uint32_t id : side_tree_.order()) sides_.push_back(side_between(sides[id].a, sides[id].b));
+  for (const std::uint32_t id : side_tree_.order()) {
+    execution.poll(sides_.size());
+    push_asked(sides_, side_between(sides[id].a, sides[id].b), execution);
+  }
   polygon_tree_ = tree_around(others, execution);
-  for (const std::uint32_t id : polygon_tree_.order()) polygons_.emplace_back(others[id].begin(), others[id].end());
+  for (const std::uint32_t id : polygon_tree_.order()) {
+    execution.reserve(others[id].size_bytes());
+    push_asked(polygons_, {others[id].begin(), others[id].end()}, execution);
+  }
   convex_tree_ = tree_around(convex, execution);
   for (const std::uint32_t id : convex_tree_.order()) {
+    execution.poll(convex_.size());
     const std::span<const Vec2> corners = convex[id];
     const auto first = as_whole<std::uint32_t>(convex_sides_.size());
     const bool left = turning_of(corners) > 0;
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const Side side = side_between(corners[i], corners[(i + 1) % corners.size()]);
       const Vec2 right = (1.0 / norm(side.along)) * Vec2{side.along.y, -side.along.x};
-      convex_sides_.push_back({side, left ? right : Vec2{} - right});
+      push_asked(convex_sides_, {side, left ? right : Vec2{} - right}, execution);
     }
-    convex_.push_back({first, as_whole<std::uint32_t>(convex_sides_.size()), box_around(corners)});
+    push_asked(convex_, {first, as_whole<std::uint32_t>(convex_sides_.size()), box_around(corners)}, execution);
   }
 }
 

@@ -11,6 +11,7 @@
 #include "core/base/whole.hpp"
 #include "core/plane/polygon.hpp"
 #include "core/plane/se2.hpp"
+#include "parallel/asked_memory.hpp"
 
 namespace warren {
 namespace {
@@ -317,10 +318,9 @@ bool restricts(const Prices& prices) {
   });
 }
 
-OccupancyMap effective_map(const OccupancyMap& map, const Prices& prices, const Execution& execution) {
-  execution.reserve(2 * map.blocked.bytes() + map.unknown.bytes() + map.water.bytes());
-  OccupancyMap effective = map;
-  if (prices.opens_unknown()) effective.blocked.remove(map.unknown);
+OccupancyMap effective_map(OccupancyMap map, const Prices& prices, const Execution& execution) {
+  const auto poll = [&] { execution.check(); };
+  if (prices.opens_unknown()) map.blocked.remove(map.unknown, poll);
   Bitmap forbidden = cell_bitmap(map.width(), map.height(), execution);
   for (const ScenePolygon& area : prices.keep_out) {
     std::vector<Vec2> corners;
@@ -330,23 +330,28 @@ OccupancyMap effective_map(const OccupancyMap& map, const Prices& prices, const 
   for_mask_cells(prices, execution, [&](const MaskCells& cells, std::uint32_t x, std::uint32_t y, const auto& factor) {
     if (!factor) add_polygon_cells(forbidden, mask_square(map, cells, x, y), execution);
   });
-  effective.blocked.add(forbidden);
-  effective.water.remove(forbidden);  // it is blocked all the same: but to paths that begin on it
-  effective.free = map.blocked.size() - effective.blocked.count();
-  return effective;
+  map.blocked.add(forbidden, poll);
+  map.water.remove(forbidden, poll);  // it is blocked all the same: but to paths that begin on it
+  map.free = map.blocked.size() - map.blocked.count();
+  return map;
 }
 
 Scene restricted_scene(const Scene& scene, const Prices& prices, const Execution& execution) {
+  std::size_t bytes = scene.walls.bytes();
+  if (const auto& map = scene.map) bytes += map->blocked.bytes() + map->unknown.bytes() + map->water.bytes();
+  for (const ScenePolygon& area : scene.polygons) bytes += sizeof area + area.corners.size() * sizeof(Vec2);
+  execution.reserve(bytes);
   Scene restricted = scene;
   if (restricted.map) {
-    restricted.map = effective_map(*scene.map, prices, execution);
+    restricted.map = effective_map(std::move(*restricted.map), prices, execution);
     return restricted;
   }
   for (const ScenePolygon& area : prices.keep_out) restricted.polygons.push_back(area);
   for_mask_cells(prices, execution, [&](const MaskCells& cells, std::uint32_t x, std::uint32_t y, const auto& factor) {
     if (factor) return;
     const std::array<Vec2, 4> square = mask_square_in_world(cells, x, y);
-    restricted.polygons.push_back({{square.begin(), square.end()}, 0});
+    execution.reserve(sizeof square);
+    push_asked(restricted.polygons, {{square.begin(), square.end()}, 0}, execution);
   });
   return restricted;
 }
@@ -447,7 +452,7 @@ MapPrices::MapPrices(const OccupancyMap& effective, double radius, const Prices&
   for_mask_cells(prices, execution, [&](const MaskCells& cells, std::uint32_t x, std::uint32_t y, const auto& factor) {
     if (factor && *factor > 1.0) add_polygon_cells(touched_, mask_square(map_, cells, x, y), execution);
   });
-  if (unknown_ > 1.0) touched_.add(map_.unknown);
+  if (unknown_ > 1.0) touched_.add(map_.unknown, [&] { execution.check(); });
 }
 
 void MapPrices::keep_near(double cells, const Execution& execution) {
@@ -459,6 +464,7 @@ void MapPrices::renew(Cell low, Cell high, const Execution& execution) {
   number_ = fresh_number();
   if (field_) field_->renew(map_.blocked, low, high, execution);
   for (std::uint32_t y = low.y; unknown_ > 1.0 && y <= high.y; ++y) {
+    execution.check();
     const auto unknown = map_.unknown.row(y);
     const auto touched = touched_.row(y);
     for (std::size_t w = 0; w < touched.size(); ++w) touched[w] |= unknown[w];

@@ -31,8 +31,8 @@ namespace warren {
 /// Is there anything that changes which cells are blocked?
 bool restricts(const Prices& prices);
 
-/// The map as it is planned on. Masks have been read. Throws Stopped.
-OccupancyMap effective_map(const OccupancyMap& map, const Prices& prices, const Execution& execution);
+/// The map as it is planned on, made of the map that it is given. Masks have been read. Throws Stopped.
+OccupancyMap effective_map(OccupancyMap map, const Prices& prices, const Execution& execution);
 
 /// The scene as it is planned in, which restricts(): on a map the map above; else keep-out polygons and the masks'
 /// blocked cells are polygons more. Masks have been read. Throws Stopped.

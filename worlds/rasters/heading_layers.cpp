@@ -17,6 +17,7 @@
 #include "core/plane/geometry.hpp"
 #include "core/plane/polygon.hpp"
 #include "core/plane/se2.hpp"
+#include "parallel/asked_memory.hpp"
 #include "parallel/chunks.hpp"
 #include "spatial/maps/distance_field.hpp"
 #include "worlds/rasters/lattice_polygons.hpp"
@@ -119,7 +120,7 @@ HeadingLayers empty_lattice(const Scene& scene, const RobotSpec& robot, const La
 /// Where a piece of the job, widened by the radius, touches a wall or a side, or leaves the bounds.
 Bitmap touching_bitmap(const LayerJob& job, const Scene& scene, std::span<const Segment> sides, double radius,
                        const HeadingLayers& lattice, const Execution& execution) {
-  constexpr std::size_t walls_per_poll = 64;  // each may meet all rows
+  const std::size_t walls_per_poll = std::max(1U, (1U << 15U) / lattice.height);  // each may meet all rows
   const std::size_t walls = scene.walls.size();
   LatticeMarking marking(lattice.origin, lattice.cell, lattice.width, lattice.height);
   for (const ConvexPiece& piece : job.pieces) {
@@ -145,7 +146,7 @@ HeadingLayers exact_layers(const Scene& scene, const RobotSpec& robot, const Lay
   const double radius = (robot.kind == RobotKind::disc ? robot.radius : 0.0) + options.clearance;
   std::vector<Segment> sides;  // of polygons
   for (const ScenePolygon& polygon : scene.polygons) {
-    for_each_side(polygon.corners, [&](Vec2 a, Vec2 b) { sides.push_back({a, b}); });
+    for_each_side(polygon.corners, [&](Vec2 a, Vec2 b) { push_asked(sides, {a, b}, execution); });
   }
   const std::vector<Vec2> middle{{0.0, 0.0}};
   const auto jobs = list_layer_jobs(robot.kind == RobotKind::polygon ? robot.outline : middle, layers, execution);
@@ -157,8 +158,9 @@ HeadingLayers exact_layers(const Scene& scene, const RobotSpec& robot, const Lay
 }
 
 /// The drawing of the course's report 004, found from its figures: a wall covers the cells on both sides of it, a level
-/// one also the cell before its first; an upright one begins and ends with the cells of its ends.
-void draw_two_cells_thick(const Segment& wall, const HeadingLayers& lattice, Bitmap& drawn) {
+/// one also the cell before its first; an upright one begins and ends with the cells of its ends. Throws Stopped.
+void draw_two_cells_thick(const Segment& wall, const HeadingLayers& lattice, Bitmap& drawn,
+                          const Execution& execution) {
   const auto set = [&](double i, double j) {
     if (i >= 0.0 && j >= 0.0 && i < lattice.width && j < lattice.height) {
       drawn.set(bounded_whole<std::uint32_t>(i), bounded_whole<std::uint32_t>(j));
@@ -170,7 +172,12 @@ void draw_two_cells_thick(const Segment& wall, const HeadingLayers& lattice, Bit
   const double from = std::floor(steep ? a.y : a.x);
   const double to = std::floor(steep ? b.y : b.x);
   const double length = std::abs(to - from);
-  for (double step = 0.0; step <= length; ++step) {
+  const double last = steep ? lattice.height : lattice.width;  // a wall may go on far beyond the lattice
+  const double first = std::clamp(to < from ? from - last : -from, 0.0, length);
+  const double end = std::min(length, to < from ? from : last - from);
+  for (std::uint64_t k = 0; static_cast<double>(k) <= end - first; ++k) {
+    execution.poll(k);
+    const double step = first + static_cast<double>(k);
     const double t = length == 0.0 ? 0.0 : step / length;
     const double along = from + std::copysign(step, to - from);
     const double across = std::floor(steep ? a.x + t * (b.x - a.x) : a.y + t * (b.y - a.y));
@@ -194,15 +201,14 @@ std::uint32_t disc_cells(const RobotSpec& robot, const HeadingLayers& lattice, s
 }
 
 Bitmap drawn_walls(const Scene& scene, const HeadingLayers& lattice, const Execution& execution) {
+  execution.reserve(Bitmap::bytes_for(lattice.width, lattice.height));
   Bitmap drawn(lattice.width, lattice.height);
+  const auto draw = [&](Vec2 a, Vec2 b) { draw_two_cells_thick({a, b}, lattice, drawn, execution); };
   for (std::size_t i = 0; i < scene.walls.size(); ++i) {
-    if (i % 64 == 0) execution.check();
-    draw_two_cells_thick(scene.walls.segment(i), lattice, drawn);
+    const Segment wall = scene.walls.segment(i);
+    draw(wall.a, wall.b);
   }
-  for (const ScenePolygon& polygon : scene.polygons) {
-    execution.check();
-    for_each_side(polygon.corners, [&](Vec2 a, Vec2 b) { draw_two_cells_thick({a, b}, lattice, drawn); });
-  }
+  for (const ScenePolygon& polygon : scene.polygons) for_each_side(polygon.corners, draw);
   drawn.set_run(0, 0, lattice.width);
   drawn.set_run(lattice.height - 1, 0, lattice.width);
   for (std::uint32_t j = 0; j < lattice.height; ++j) {
@@ -222,9 +228,10 @@ HeadingLayers report_layers(const Scene& scene, const RobotSpec& robot, const La
     const auto [at, is_new] = bitmap_of.emplace(radius, as_whole<std::uint32_t>(layers.bitmaps.size()));
     layers.standing.push_back(at->second);
     if (!is_new) continue;
+    execution.reserve(Bitmap::bytes_for(layers.width, layers.height));
     Bitmap blocked(layers.width, layers.height);
     for (std::uint32_t j = 0; j < layers.height; ++j) {
-      if (j % 64 == 0) execution.check();
+      execution.check();
       for (std::uint32_t i = 0; i < layers.width; ++i) {
         if (field.squared(i, j) <= std::uint64_t{radius} * radius) blocked.set(i, j);
       }

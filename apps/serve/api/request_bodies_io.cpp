@@ -14,6 +14,7 @@
 #include "core/base/bitmap.hpp"
 #include "core/plane/geometry.hpp"
 #include "core/plane/polygon.hpp"
+#include "parallel/asked_memory.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "scenes/text/human_units.hpp"
@@ -77,10 +78,14 @@ std::vector<CellChange> cells_of(const OrderedJson& json, const std::string& whe
 // Polygons are few beside walls and are looked through; walls to remove stand in a tree, so a change costs O(n log k)
 // for n walls and k shapes.
 
-double distance_to(const std::vector<Vec2>& polygon, Vec2 p) {
+double distance_to(const std::vector<Vec2>& polygon, Vec2 p, const Execution& execution) {
   if (contains(polygon, p)) return 0.0;
   double least = std::numeric_limits<double>::infinity();
-  for_each_side(polygon, [&](Vec2 a, Vec2 b) { least = std::min(least, distance(p, {a, b})); });
+  std::size_t sides = 0;
+  for_each_side(polygon, [&](Vec2 a, Vec2 b) {
+    execution.poll(++sides);
+    least = std::min(least, distance(p, {a, b}));
+  });
   return least;
 }
 
@@ -100,7 +105,7 @@ void erase(const Scene& scene, const ErasedPlace& place, DrawnShapes& removed, c
   }
   for (std::size_t i = 0; i < scene.polygons.size(); ++i) {
     execution.poll(i);
-    const double away = distance_to(scene.polygons[i].corners, place.at);
+    const double away = distance_to(scene.polygons[i].corners, place.at, execution);
     if (away < least || (away <= least && wall == scene.walls.size())) std::tie(least, polygon) = std::pair(away, i);
   }
   if (polygon < scene.polygons.size()) {
@@ -116,13 +121,17 @@ std::vector<ScenePolygon> polygons_left(const Scene& scene, const DrawnShapes& r
   for (const std::vector<Vec2>& polygon : removed.polygons) {
     execution.check();
     std::size_t i = 0;
-    while (i < is_gone.size() && (is_gone[i] || scene.polygons[i].corners != polygon)) ++i;
+    while (i < is_gone.size() && (is_gone[i] || scene.polygons[i].corners != polygon)) execution.poll(++i);
     if (i == is_gone.size()) refuse_missing("polygon");
     is_gone[i] = true;
   }
+  std::size_t corners = 0;
+  for (const ScenePolygon& polygon : scene.polygons) corners += polygon.corners.size();
+  execution.reserve(corners * sizeof(Vec2));
   std::vector<ScenePolygon> left;
   for (std::size_t i = 0; i < is_gone.size(); ++i) {
-    if (!is_gone[i]) left.push_back(scene.polygons[i]);
+    execution.poll(i);
+    if (!is_gone[i]) push_asked(left, scene.polygons[i], execution);
   }
   return left;
 }
@@ -384,6 +393,7 @@ ChangedScene changed(const Scene& scene, const SceneChange& change, const std::o
   std::vector<ScenePolygon> polygons = polygons_left(scene, removed, execution);
   for (const std::vector<Vec2>& corners : change.add.polygons) polygons.push_back({corners});
   std::vector<Segment> walls = walls_left(scene, removed, execution);
+  execution.reserve(2 * walls.size() * sizeof(Segment) + scene.seams.size() * sizeof(Segment));
   walls.insert(walls.end(), change.add.walls.begin(), change.add.walls.end());
   Scene& now = result.scene;
   for (const PriceMask& mask : scene.prices.masks) execution.reserve(mask.read ? mask.read->values.size() : 0);

@@ -109,6 +109,16 @@ TEST(LayerSearch, ReportLayersOfTheCourseSceneGiveTheReportsNumbers) {
   EXPECT_NEAR(longer.cost, 766.066, 1e-3);
 }
 
+TEST(LayerSearch, ReportLayersOfWallsThatLeaveTheGridAreThoseOfTheirPartsInIt) {
+  const auto layers_of = [](double beyond) {
+    Scene scene = course_scene();
+    const std::vector<Segment> walls{{{-beyond, 100}, {800 + beyond, 100}}, {{400, 300 + beyond}, {400, -beyond}}};
+    scene.walls = WallSet::narrowest(walls);
+    return orientation_layers(scene, square(25), {.grid = {2, 72}, .kind = LayerKind::report004}, {});
+  };
+  EXPECT_EQ(layers_of(1e15).free_states(), layers_of(10.0).free_states());
+}
+
 /// A small scene of random walls and a triangle that does not hold its reference point.
 Scene random_scene(std::uint64_t seed) {
   Scene scene;

@@ -62,6 +62,7 @@ TEST(DhTable, RefusesBadInputInOneLineThatNamesFileAndLine) {
                         {"# nothing\n\n", "the file ends without any"},
                         {"joint 0 1 0 -1\n", ":1: expected `joint D A ALPHA LOW HIGH [OFFSET]` (found: 4 numbers)"},
                         {"joint 0 1 0 -1 1 0 7\n", "7 numbers"},
+                        {"joint 0\n", "(found: 1 number)"},
                         {"\njoint 0 1 0 1 -1\n", ":2: LOW must not exceed HIGH"},
                         {"joint 0 1 x -1 1\n", "expected a number (found: x)"},
                         {"joint 0 1 nan -1 1\n", ":1:"},

@@ -102,6 +102,7 @@ TEST(GeoJson, WhatIsNoneIsRefusedWithItsLine) {
   expect_refused("[1, 2]", "nested 3 deep");
   expect_refused(polygon("[[[0,0],[4,0],[0,3]]]"), ":2: a ring needs four positions");
   expect_refused(polygon("[[[0,0],[4,0],[0,0]]]"), "four positions");
+  expect_refused(polygon("[[[0,0]]]"), "equal to the first (found: 1 position)");
   expect_refused(polygon("[[0,0],[4,0],[0,3],[0,0]]"), "nested 3 deep");
   expect_refused(polygon("[[[[0,0],[4,0],[0,3],[0,0]]]]"), "nested 3 deep");
   expect_refused(polygon("[[[[[0,0]]]]]"), "too deeply");
@@ -158,6 +159,7 @@ TEST(Wkt, WhatIsNoneIsRefusedWithItsLine) {
   expect_refused("POLYGON (0 0, 4 0, 0 3, 0 0)", "expected `(`");
   expect_refused("POINT (1 1)\nPOLYGON ((0 0, 4 0, 0 3))", ":2: a ring needs four positions");
   expect_refused("POLYGON ((0 0, 4 0, 0 0))", "four positions");
+  expect_refused("POLYGON ((0 0))", "equal to the first (found: 1 position)");
   expect_refused("POLYGON ((0 0, 4, 0 3, 0 0))", "a number");
   expect_refused("POLYGON ((0 0, 4 nan, 0 3, 0 0))", "a number");
   expect_refused("POLYGON ((0 0, 4 0.5.7, 0 3, 0 0))", "a number");

@@ -20,6 +20,8 @@ TEST(Usage, WrongWordsAreRefusedWithTheClosestMatch) {
       {{"solve", "maze", "5x7"}, 2, "unexpected argument '5x7'; a maze is called maze:41x41"},
       {{"generate", "maze", "5", "7", "-o", "x.npy"}, 2, "unexpected argument '7'; its size is one word, 41x41"},
       {{"solve", "5x7"}, 66, "there is no such file; a maze is called maze:41x41"},
+      {{"info", "5x7"}, 66, "there is no such file; a maze is called maze:41x41"},
+      {{"convert", "5x7", "--robot", "point", "-o", "x.scene"}, 66, "; a maze is called maze:41x41"},
       {{"solve", ""}, 66, "'': can't be read: there is no such file"},
       {{"generate", "maze", "abc", "-o", "x.npy"}, 2, "warren: abc: the size is missing; expected ROWSxCOLS"},
       {{"solve", "maze:5x7", "--robot", "disc", "0.2"}, 2, "'0.2'; a value of several words is quoted"},
