@@ -24,8 +24,7 @@
 #include "scenes/scene/scene.hpp"
 
 namespace warren {
-// The shapes of marks: start is a disc, goal a star with five points; a front is a triangle.
-
+/// The shapes of marks: start is a disc, goal a star with five points; a front is a triangle.
 enum class MarkShape : std::uint8_t { disc, star, front };
 
 /// The outline around the origin; y up; the star stands on two points, the front points to the right. All look equally
@@ -38,11 +37,11 @@ std::vector<Vec2> circle_outline(Vec2 middle, double radius, int corners);
 /// A ball that went from a to b (a == b: a ball), the box between these corners, or the face of a body: a triangle,
 /// anticlockwise from outside, which is seen from there alone.
 struct SeenSolid {
-  Vec3 a;
-  Vec3 b;
-  double radius = 0.0;  ///< of the ball; < 0: a box or a face
-  Rgb color = {};
-  Part part = Part::world;
+  Vec3 a;                      ///< a ball's first place, or a corner
+  Vec3 b;                      ///< its last one, or the corner across, or the next
+  double radius = 0.0;         ///< of the ball; < 0: a box or a face
+  Rgb color = {};              ///< before light and shade
+  Part part = Part::world;     ///< that it goes with
   std::optional<Vec3> c = {};  ///< of a face, the third corner
 };
 
@@ -62,15 +61,15 @@ void for_each_point(const SeenSolid& s, const Take& take) {
   }
 }
 
-// An arm that moves: where its joints are at moments of its path.
-
 /// From space into a picture's world: which axes run right and up, and where the space's zero stands.
 struct Projection {
-  std::array<int, 2> axes;
-  Vec2 shift;
+  std::array<int, 2> axes;  ///< right, up
+  Vec2 shift;               ///< where zero stands
+  /// Where a point is seen.
   Vec2 at(const Vec3& p) const { return shift + Vec2{p[axes[0]], p[axes[1]]}; }
 };
 
+/// An arm that moves: where its joints are at moments of its path.
 struct MovingArm {
   double radius = 0.0;                 ///< of the line
   std::vector<Projection> views = {};  ///< that show it
@@ -80,14 +79,13 @@ struct MovingArm {
   std::vector<std::vector<Eigen::Isometry3d>> frames = {};  ///< of the base and its joints, as many as moments
   /// A solid of it, in one of the frames.
   struct Link {
-    int frame;
-    std::vector<SeenSolid> shapes;
+    int frame;                      ///< an index of those of a moment
+    std::vector<SeenSolid> shapes;  ///< in it
   };
-  std::vector<Link> links = {};
+  std::vector<Link> links = {};  ///< all that are drawn
 };
 
-// A body that moves along a picture's path.
-
+/// A body that moves along a picture's path.
 struct MovingBody {
   std::vector<Vec2> outline = {};    ///< around the reference point; empty: a disc
   double radius = 0.0;               ///< of the disc
@@ -100,16 +98,16 @@ struct MovingBody {
 
 /// A floor with squares below the solids, and shadows on it, makes depth readable; what is far is paler.
 struct SolidView {
-  Box box = {};              ///< in the picture's world: where it stands
-  Vec3 target;               ///< the middle of what is seen
-  double reach = 1.0;        ///< of a ball around the target that just fits into the box, > 0
-  double azimuth_rad = 0.0;  ///< where the eye stands, as seen from the target: from x to y
-  double rise_rad = 0.0;     ///< and above the floor
-  Vec3 floor;                ///< the corner of the floor with the least x and y
-  double floor_side = 1.0;   ///< > 0
-  double square = 1.0;       ///< side of the floor's squares
-  std::vector<SeenSolid> solids = {};
-  bool is_thinned = false;  ///< lines of a roadmap are thinner and paler, being so many
+  Box box = {};                        ///< in the picture's world: where it stands
+  Vec3 target;                         ///< the middle of what is seen
+  double reach = 1.0;                  ///< of a ball around the target that just fits into the box, > 0
+  double azimuth_rad = 0.0;            ///< where the eye stands, as seen from the target: from x to y
+  double rise_rad = 0.0;               ///< and above the floor
+  Vec3 floor;                          ///< the corner of the floor with the least x and y
+  double floor_side = 1.0;             ///< > 0
+  double square = 1.0;                 ///< side of the floor's squares
+  std::vector<SeenSolid> solids = {};  ///< all that are seen
+  bool is_thinned = false;             ///< lines of a roadmap are thinner and paler, being so many
 };
 
 /// Of links and paths that are to be seen, in reaches.
@@ -123,20 +121,21 @@ struct PictureLayer {
   std::string id;                        ///< the SVG group's
   std::string label = {};                ///< in the legend; empty: not there
   std::optional<MarkShape> swatch = {};  ///< in the legend, instead of a line or an area
-  Part part = Part::roadmap;
-  Rgb color = colors::layer;           ///< of the lines
-  double width = widths::edge;         ///< as widths say; 0: no lines
-  PolygonSet lines = {};               ///< each a chain of points; a chain of one point twice is a dot
-  bool closed = false;                 ///< the chains are outlines, as all that have a fill are
-  std::optional<Rgb> fill = {};        ///< of outlines that do not overlap, or may be taken together
-  double opacity = 1.0;                ///< 0 .. 1
-  bool blocks = true;                  ///< an area of Part::world is an obstacle
-  bool over_roadmap = false;           ///< drawn after the roadmap's edges
-  std::vector<double> opacities = {};  ///< of each chain, times `opacity`; empty: all 1
+  Part part = Part::roadmap;             ///< that it goes with
+  Rgb color = colors::layer;             ///< of the lines
+  double width = widths::edge;           ///< as widths say; 0: no lines
+  PolygonSet lines = {};                 ///< each a chain of points; a chain of one point twice is a dot
+  bool closed = false;                   ///< the chains are outlines, as all that have a fill are
+  std::optional<Rgb> fill = {};          ///< of outlines that do not overlap, or may be taken together
+  double opacity = 1.0;                  ///< 0 .. 1
+  bool blocks = true;                    ///< an area of Part::world is an obstacle
+  bool over_roadmap = false;             ///< drawn after the roadmap's edges
+  std::vector<double> opacities = {};    ///< of each chain, times `opacity`; empty: all 1
   /// The turn of the arc that leads to each corner of `lines`, anticlockwise, at most a half turn; 0: a straight.
   /// Empty: all are straight.
   std::vector<double> turns = {};
 
+  /// Those of one chain.
   std::span<const double> turns_of(std::size_t line) const {
     if (turns.empty()) return {};
     return std::span(turns).subspan(lines.first[line], lines.first[line + 1] - lines.first[line]);
@@ -151,11 +150,11 @@ double arc_radius(Vec2 from, Vec2 to, double turn);
 
 /// A part of the picture with axes of its own.
 struct AxesPanel {
-  Box box = {};      ///< in the picture's world
-  Vec2 origin = {};  ///< where the panel's own zero is
-  std::string x_label = {};
-  std::string y_label = {};
-  bool has_ticks = true;  ///< else a frame and the labels alone
+  Box box = {};              ///< in the picture's world
+  Vec2 origin = {};          ///< where the panel's own zero is
+  std::string x_label = {};  ///< below the axis
+  std::string y_label = {};  ///< beside the axis
+  bool has_ticks = true;     ///< else a frame and the labels alone
 };
 
 /// A further picture of an answer: the same world with other layers, without roadmap and path.
@@ -179,20 +178,21 @@ struct Picture {
   std::string path_label = "path";                   ///< as the legend calls it
   std::string title = {};                            ///< the world
   std::string subtitle = {};                         ///< a line or two below the title: planner, samples, length, seed
-  std::string description = {};
-  MovingBody body = {};                 ///< what goes along the path. Without poses: the path's points
-  std::optional<MovingArm> arm = {};    ///< that goes along a path
-  bool moves = false;                   ///< SVG: it is seen moving; HTML has a slider always
-  std::vector<PicturePage> pages = {};  ///< what deserves a picture of its own each
+  std::string description = {};                      ///< in words, for those who can't see it
+  MovingBody body = {};                              ///< what goes along the path. Without poses: the path's points
+  std::optional<MovingArm> arm = {};                 ///< that goes along a path
+  bool moves = false;                                ///< SVG: it is seen moving; HTML has a slider always
+  std::vector<PicturePage> pages = {};               ///< what deserves a picture of its own each
 };
 
 /// The part of the world that is shown, and what counts as one unit there: a maze's cell, else a fortieth of the
 /// extent.
 struct Canvas {
-  Box box;
-  double unit = 1.0;
+  Box box;                        ///< in the world
+  double unit = 1.0;              ///< in the world's units
   std::optional<Box> whole = {};  ///< the map that it is the known part of; none: all is shown
 };
+/// Of what the picture shows. Throws Stopped.
 Canvas canvas_of(const Picture& picture, const Execution& execution);
 
 /// For each vertex the rank of its component: the `own` largest ones of two vertices or more are told apart, the
