@@ -308,7 +308,8 @@ class ArmDrawing {
     auto stage = std::make_unique<Scene>();
     stage->source = scene_.source;
     for (const Projection& view : views_) add_obstacles(view, *stage);
-    Picture views{.scene = *stage, .stage = std::move(stage)};
+    const Scene& seen = *stage;
+    Picture views{.scene = seen, .stage = std::move(stage)};
     const PictureLayer start = arm_at("start", path, path.states().front(), colors::start);
     views.layers = {start};
     if (path.states().size() > 1) {
