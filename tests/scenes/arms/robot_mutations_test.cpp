@@ -80,7 +80,7 @@ bool taken(const Read& read) {
   return said.empty();
 }
 
-std::vector<std::uint64_t> mutation_seeds() { return test::seeds(1200, 60); }
+std::vector<std::uint64_t> mutation_seeds() { return test::seeds(1200, 80); }
 
 TEST(RobotMutations, ModelsThatAreTakenAreWhole) {
   const TemporaryDirectory directory;
@@ -108,7 +108,7 @@ TEST(RobotMutations, ModelsThatAreTakenAreWhole) {
       ++whole;
     }
   }
-  EXPECT_GT(whole, test::share(200, 5));  // of any sixty that follow each other six are
+  EXPECT_GT(whole, test::share(200, 5));  // of any eighty that follow each other six are
 }
 
 TEST(RobotMutations, MeshesThatAreTakenHaveHulls) {
