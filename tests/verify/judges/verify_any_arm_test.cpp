@@ -210,6 +210,33 @@ TEST_F(VerifyFinger, IsHeldToLimitsAndEnds) {
   EXPECT_EQ(refusal(up, {.goal_pose = pose}), "");
 }
 
+TEST_F(VerifyFinger, IsHeldToThemToTheTolerance) {
+  for (const double share : {0.5, 2.0}) {
+    SCOPED_TRACE(share);
+    const double off = share * ArmVerifyOptions::tolerance;
+    const bool refused = share > 1.0;
+    const std::vector<JointState> up{{0.0, 0.1}, {0.5 * std::numbers::pi, 0.25}};
+    for (const std::size_t joint : {0U, 1U}) {
+      JointState start = up.front();
+      JointState goal = up.back();
+      start[joint] -= off;
+      goal[joint] += off;
+      EXPECT_EQ(refusal(up, {.start = start}).starts_with("start:"), refused);
+      EXPECT_EQ(refusal(up, {.goal = goal}).starts_with("goal:"), refused);
+    }
+    EXPECT_EQ(refusal({{0.0, -off}}).starts_with("limits:"), refused);
+    EXPECT_EQ(refusal({{0.0, 0.5 + off}}).starts_with("limits:"), refused);
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    pose.linear() = Eigen::AngleAxisd(0.5 * std::numbers::pi, Vec3::UnitZ()).toRotationMatrix();
+    pose.translation() = Vec3(0.0, 1.0, 0.25 + off);
+    EXPECT_EQ(refusal(up, {.goal_place = pose.translation()}).starts_with("goal:"), refused);
+    EXPECT_EQ(refusal(up, {.goal_pose = pose}).starts_with("goal:"), refused);
+    pose.translation().z() = 0.25;
+    pose.linear() = pose.linear() * Eigen::AngleAxisd(off, Vec3::UnitX()).toRotationMatrix();
+    EXPECT_EQ(refusal(up, {.goal_pose = pose}).starts_with("goal:"), refused);
+  }
+}
+
 TEST_F(VerifyFinger, IsJudgedAmongSizesOfAllKindsOrRefused) {
   Solid huge{.kind = SolidKind::box, .half = {1e60, 1e60, 1e59}};
   huge.pose.translation() = Vec3(0.0, 0.0, -1e59);

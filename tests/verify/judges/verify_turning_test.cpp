@@ -104,6 +104,13 @@ TEST(VerifySe2, ComparesStartAndGoal) {
   EXPECT_FALSE(verified({-7, 0, 0}, {7, 0, 1}, false));
   EXPECT_TRUE(verified({-7, 0, 0}, {7, 0, 1}, true));
   EXPECT_FALSE(verified({-7, 0.1, 0}, {7, 0, 0}, false));
+  for (const double share : {0.5, 2.0}) {
+    const double off = share * PoseVerifyOptions::tolerance;
+    EXPECT_EQ(verified({-7, off, 0}, {7, 0, 0}, false), share < 1.0);
+    EXPECT_EQ(verified({-7, 0, off}, {7, 0, 0}, false), share < 1.0);
+    EXPECT_EQ(verified({-7, 0, 0}, {7, -off, 0}, false), share < 1.0);
+    EXPECT_EQ(verified({-7, 0, 0}, {7, 0, off}, false), share < 1.0);
+  }
 }
 
 TEST(VerifySe2, SeesBodiesInPolygonsOutsideTheBoundsAndWallsInTheBody) {
